@@ -1,0 +1,48 @@
+# Data flows one way: config -> samples -> datasets -> figures -> report.
+#
+#   results/samples/{case}.nc               one sampler with one set of parameters
+#   results/datasets/{item}.nc              what one published item needs, with its errors
+#   results/figures/{item}.{png,svg,pdf}    its figure
+#   results/report/report.html              everything, with the verdicts
+#
+# Each item is a target by name: `snakemake -c2 kac_fig3`.
+import re
+import shlex
+import sys
+
+sys.path.insert(0, workflow.basedir)
+
+from kacsim import items, plan
+from kacsim.provenance import KERNEL_SOURCES, ROOT, source_hash
+
+
+configfile: ROOT / "config" / "config.yaml"
+
+
+# The interpreter that runs Snakemake, and this clone: the printed commands work from anywhere.
+KACSIM = f"PYTHONPATH={shlex.quote(str(ROOT))} {shlex.quote(sys.executable)} -m kacsim"
+FORMATS = ("png", "svg", "pdf")
+CONFIG_FILES = [ROOT / "config" / "config.yaml", *workflow.configfiles]
+
+try:
+    the_plan = plan.Plan(config, CONFIG_FILES)
+except plan.PlanError as error:
+    print(error, file=sys.stderr)
+    sys.exit(2)
+
+
+wildcard_constraints:
+    case="|".join(map(re.escape, the_plan.cases)),
+    item="|".join(items.NAMES),
+
+
+rule all:
+    input:
+        "results/report/report.html",
+        expand("results/figures/{item}.{format}", item=items.NAMES, format=FORMATS),
+
+
+include: "workflow/rules/sample.smk"
+include: "workflow/rules/reduce.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/report.smk"

@@ -1,0 +1,57 @@
+"""One module per item: what to sample, how to reduce it, how to draw it.
+
+An item module defines ``cases(settings) -> list[Case]``, ``reduce(samples, settings) ->
+xarray.Dataset``, ``draw(dataset) -> Figure`` and, if the texts state something about it,
+``claims(dataset) -> list[Finding]``. Adding a figure is adding a module here, its section in the
+configuration and its schema, and its caption.
+"""
+
+import importlib
+import pkgutil
+import re
+
+import yaml
+
+from kacsim.provenance import ROOT
+
+
+def _order(name):
+    """Sort figures by number, then the other studies."""
+    family, _, rest = name.partition("_")
+    number = re.search(r"(\d+)", rest)
+    return family != "kac", family, int(number[1]) if number else 99, rest
+
+
+NAMES = sorted(
+    (module.name for module in pkgutil.iter_modules(__path__) if not module.name.startswith("_")),
+    key=_order,
+)
+
+
+def load(name):
+    """Return the module of an item."""
+    return importlib.import_module(f"kacsim.items.{name}")
+
+
+def published():
+    """Return claim id -> published entry, from reports/published.yaml."""
+    text = (ROOT / "reports" / "published.yaml").read_text(encoding="utf-8")
+    return yaml.safe_load(text)
+
+
+def reduced(name, samples, settings):
+    """Return an item's dataset with what it was made from, as the later stages read it.
+
+    Parameters
+    ----------
+    name : item
+    samples : mapping, case id -> xarray.Dataset
+    settings : the item's settings
+
+    Returns
+    -------
+    xarray.Dataset with attributes ``settings`` and ``published`` (claim id -> value)
+    """
+    dataset = load(name).reduce(samples, settings)
+    values = {key: entry["value"] for key, entry in published().items() if entry["item"] == name}
+    return dataset.assign_attrs(settings=settings, published=values)

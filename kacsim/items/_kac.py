@@ -1,0 +1,132 @@
+"""What the items of the Kac paper share: their cases, and the reduction of velocity samples."""
+
+import math
+
+from kacsim.checks import RATE, STEPPED
+from kacsim.items._lazy import estimate, exact, histogram, kac, np, store, xr
+from kacsim.plan import make_case
+
+
+def velocity_case(settings, algorithm, n_particles, time_step=None, **others):
+    """Return the case of one algorithm with the item's time, engine and size."""
+    step = time_step if algorithm in STEPPED else None
+    size = {key: settings[key] for key in ("n_draws", "n_replicates", "seed")}
+    common = {"engine": settings["engine"], "time": settings["time"], "time_step": step}
+    return make_case(
+        "kac", algorithm=algorithm, n_particles=n_particles, **(common | size | others)
+    )
+
+
+def widths(settings):
+    """Return all bin widths, the one of the published figures first."""
+    return [settings["bin_width"], *settings["other_bin_widths"]]
+
+
+def target(settings, bin_width, time=None):
+    """Return (probabilities, edges) of eq. (8) over the bins of a width."""
+    when = settings["time"] if time is None else time
+    empty = np.zeros(histogram.FINE_BINS + 2, int)
+    edges = histogram.coarsen(empty, bin_width)[1]
+    return histogram.probabilities(lambda v: exact.cumulative(v, when), edges), edges
+
+
+def tvn(sample, settings, bin_width, time=None):
+    """Return the TVN of each replicate against eq. (8), float64[n_replicates]."""
+    expected, _ = target(settings, bin_width, time)
+    counts, _ = histogram.coarsen(sample["counts"].values, bin_width)
+    return histogram.total_variation(counts, expected)
+
+
+def noise_floor(settings, bin_width, n_draws, time=None):
+    """Return the mean TVN of exact draws from eq. (8)."""
+    return histogram.noise_floor(target(settings, bin_width, time)[0], n_draws)
+
+
+def tvn_table(samples, grid, dims, coords, settings):
+    """Reduce a grid of velocity cases to TVN and fourth moments.
+
+    Parameters
+    ----------
+    samples : case id -> dataset
+    grid : dict, tuple of places along `dims` -> Case (missing places become nan)
+    dims, coords : names and values of the grid's axes
+    settings : the item's settings
+
+    Returns
+    -------
+    xarray.Dataset: tvn, tvn_error, tvn_spread[*dims, bin_width], floor[bin_width],
+    moment, moment_error, moment_exact[*dims], all of v_1**4
+    """
+    shape = tuple(len(coords[dim]) for dim in dims)
+    all_widths = widths(settings)
+    tables = {key: np.full((*shape, len(all_widths)), np.nan) for key in ("mean", "se", "sd")}
+    fourth = {key: np.full(shape, np.nan) for key in ("mean", "se", "exact")}
+    for place, case in grid.items():
+        sample = samples[case.id]
+        for w, width in enumerate(all_widths):
+            values = tvn(sample, settings, width)
+            mean = estimate.of_replicates(values)
+            tables["mean"][(*place, w)] = mean.value
+            tables["se"][(*place, w)] = mean.standard_error
+            tables["sd"][(*place, w)] = values.std(ddof=1) if values.size > 1 else np.nan
+        moment = fourth_moment_of(sample, case)
+        fourth["mean"][place], fourth["se"][place] = moment.value, moment.standard_error
+        fourth["exact"][place] = exact_moment(case)
+    floors = [noise_floor(settings, width, settings["n_draws"]) for width in all_widths]
+    described, with_width = store.described, (*dims, "bin_width")
+    variables = {
+        "tvn": described(tables["mean"], with_width, "mean TVN"),
+        "tvn_error": described(tables["se"], with_width, "standard error of the mean TVN"),
+        "tvn_spread": described(tables["sd"], with_width, "standard deviation of one TVN"),
+        "floor": described(floors, ("bin_width",), "mean TVN of exact draws"),
+        "moment": described(fourth["mean"], dims, "mean of v_1**4"),
+        "moment_error": described(fourth["se"], dims, "standard error of the mean of v_1**4"),
+        "moment_exact": described(fourth["exact"], dims, "exact mean of v_1**4"),
+    }
+    axes = {dim: (dim, list(values)) for dim, values in coords.items()}
+    return xr.Dataset(variables, coords=axes | {"bin_width": ("bin_width", all_widths)})
+
+
+def n_draws_of(case):
+    """Return the draws of a case, all replicates together."""
+    return case.n_draws * case.n_replicates
+
+
+def fourth_moment_of(sample, case):
+    """Return the measured E v_1**4 of a velocity sample, with its standard error."""
+    means = sample["moment"].mean("replicate").to_series()
+    return estimate.of_power(means, 4, n_draws_of(case))
+
+
+def exact_moment(case, time=None):
+    """Return the exact E v_1**4 of the case's own process: finite N, finite step."""
+    p = case.parameters
+    return kac.fourth_moment(
+        p["time"] if time is None else time,
+        p["n_particles"],
+        algorithm=p["algorithm"],
+        time_step=p["time_step"],
+        collision_rate=p["collision_rate"],
+    )
+
+
+def limit_moment(time):
+    """Return E v**4 of the Kac equation."""
+    return kac.fourth_moment(time, math.inf)
+
+
+def histogram_of(sample, bin_width, replicate=0):
+    """Return (density, edges) of one replicate, its tails left out of the bars."""
+    counts, edges = histogram.coarsen(sample["counts"].values[replicate], bin_width)
+    return counts[1:-1] / counts.sum() / np.diff(edges), edges
+
+
+def mean_own_collisions(time, rate=RATE):
+    """Return the mean number of collisions of particle 1, rate * t."""
+    return rate * time
+
+
+def mean_of(dataset, variable, **place):
+    """Return an estimate from a reduced dataset: `variable` and `variable`_error at a place."""
+    here = dataset.sel(**place)
+    return estimate.Mean(float(here[variable]), float(here[variable + "_error"]))

@@ -1,0 +1,24 @@
+"""Heavy modules, imported at their first use: the plan reads every item at every start."""
+
+import importlib
+
+
+class _Lazy:
+    def __init__(self, name):
+        self._name = name
+
+    def __getattr__(self, attribute):
+        return getattr(importlib.import_module(self._name), attribute)
+
+
+np = _Lazy("numpy")
+xr = _Lazy("xarray")
+kac = _Lazy("kacsim.kac")
+exact = _Lazy("kacsim.kac.exact")
+moments = _Lazy("kacsim.kac.moments")
+estimate = _Lazy("kacsim.statistics.estimate")
+histogram = _Lazy("kacsim.statistics.histogram")
+tail = _Lazy("kacsim.statistics.tail")
+verdict = _Lazy("kacsim.statistics.verdict")
+store = _Lazy("kacsim.store")
+plotting = _Lazy("kacsim.plotting")

@@ -1,0 +1,103 @@
+"""Fig. 5 of the Kac paper: histograms of upper tail values of v_1, Bird and Poisson."""
+
+from kacsim.items import _kac
+from kacsim.items._lazy import estimate, exact, histogram, np, plotting, store, tail, verdict, xr
+
+ALGORITHMS = ("bird", "poisson")
+VARIABLES = ("tail_share", "tail_low", "tail_high")
+
+
+def cases(settings):
+    """Return both algorithms, keeping values above the threshold."""
+    above = settings["tail_above"]
+    return [
+        _kac.velocity_case(settings, name, settings["n_particles"], keep_above=above)
+        for name in ALGORITHMS
+    ]
+
+
+def reduce(samples, settings):
+    """Return histograms of the first tail values, and tail probabilities with exact intervals."""
+    found = cases(settings)
+    edges = histogram.fine_edges()
+    edges = edges[edges >= settings["tail_above"] - 1e-9]
+    kept = [samples[case.id]["kept_velocity"].values for case in found]
+    heights = [np.histogram(v, edges)[0] / v.size / np.diff(edges) for v in kept]
+    thresholds = settings["tail_threshold"]
+    shares = np.array([[_share(samples[c.id], c, x) for x in thresholds] for c in found])
+    described, dims = store.described, ("algorithm", "threshold")
+    variables = {
+        "density": described(heights, ("algorithm", "bin"), "histogram of the kept tail values"),
+        "n_kept": described([v.size for v in kept], ("algorithm",), "tail values kept"),
+        "n_draws": described([_kac.n_draws_of(c) for c in found], ("algorithm",), "draws"),
+        "tail_exact": described(
+            exact.survival(thresholds, settings["time"]), ("threshold",), "P(v > x) of eq. (8)"
+        ),
+    }
+    for k, name in enumerate(VARIABLES):
+        variables[name] = described(shares[:, :, k], dims, name.replace("_", " ") + " of v_1 > x")
+    coords = {"algorithm": list(ALGORITHMS), "threshold": thresholds, "edge": edges}
+    return xr.Dataset(variables, coords={key: (key, values) for key, values in coords.items()})
+
+
+def _share(sample, case, threshold):
+    count = tail.counts_beyond(sample["counts"].values.sum(axis=0), threshold)
+    n = _kac.n_draws_of(case)
+    return (count / n, *tail.clopper_pearson(count, n))
+
+
+def claims(dataset):
+    """Test whether Poisson is nearer than Bird to the exact tail probability."""
+    x = float(dataset.threshold[0])
+    here = dataset.sel(threshold=x)
+    exact_tail = float(here.tail_exact)
+    means = {}
+    for algorithm in ALGORITHMS:
+        one = here.sel(algorithm=algorithm)
+        n = int(one.n_draws)
+        means[algorithm] = estimate.of_share(round(float(one.tail_share) * n), n)
+    misses = {name: abs(mean.value - exact_tail) for name, mean in means.items()}
+    error = means["bird"].minus(means["poisson"]).standard_error
+    z = {name: (mean.value - exact_tail) / mean.standard_error for name, mean in means.items()}
+    return [
+        verdict.Finding(
+            "kac_fig5_tails",
+            misses["bird"] - misses["poisson"],
+            error,
+            evidence=f"P(v₁ > {x:g}) less the exact {exact_tail:.6f}: Bird z = {z['bird']:+.1f}, "
+            f"Poisson z = {z['poisson']:+.1f}.",
+        )
+    ]
+
+
+def draw(dataset):
+    """Draw the tail histograms, and the tail probabilities relative to eq. (8)."""
+    settings = dataset.attrs["settings"]
+    figure, axes = plotting.panels(1, len(ALGORITHMS) + 1)
+    grid = np.linspace(settings["tail_above"], 6.0, 200)
+    scale = exact.survival(settings["tail_above"], settings["time"])
+    for k, algorithm in enumerate(ALGORITHMS):
+        axis, here = axes[k], dataset.sel(algorithm=algorithm)
+        plotting.bars(axis, here.edge, here.density, k, f"{int(here.n_kept):,} values")
+        curve = exact.density(grid, settings["time"]) / scale
+        axis.plot(grid, curve, color="black", lw=1, label="eq. (8)")
+        axis.set_yscale("log")
+        axis.set_ylim(1e-4, 10)
+        axis.set_xlim(settings["tail_above"], 6.0)
+        axis.set_title(plotting.NAMES[algorithm])
+        axis.set_xlabel("velocity $v_1$")
+        axis.legend()
+        _ratios(axes[-1], here, k)
+    axes[0].set_ylabel(f"density of $v_1$ given $v_1$ > {settings['tail_above']:g}")
+    axes[-1].axhline(1.0, color="black", lw=1)
+    axes[-1].set_xlabel("threshold $x$")
+    axes[-1].set_ylabel("P($v_1$ > $x$) / exact, 95 % intervals")
+    axes[-1].legend()
+    return figure
+
+
+def _ratios(axis, here, k):
+    ratio, low, high = (here[name] / here.tail_exact for name in VARIABLES)
+    errors = np.maximum(0.0, [ratio - low, high - ratio])
+    shifted = here.threshold + 0.03 * (k - 0.5)
+    plotting.points(axis, shifted, ratio, errors, k, plotting.NAMES[str(here.algorithm.values)])

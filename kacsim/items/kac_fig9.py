@@ -1,0 +1,164 @@
+"""Fig. 9 of the Kac paper: histogram of epsilon-perfect draws with the limit law, eq. (9)."""
+
+import math
+
+from kacsim.items import _kac
+from kacsim.items._lazy import estimate, exact, histogram, np, plotting, store, verdict, xr
+from kacsim.plan import make_case
+
+ENERGIES = ("three_halves", "printed")
+
+
+def cases(settings):
+    """Return the draws with energy 3N/2, and with the energy N that the text assumes."""
+    keys = ("n_particles", "tolerance", "n_draws", "n_replicates", "seed")
+    common = {key: settings[key] for key in keys}
+    printed = float(settings["n_particles"])
+    return [make_case("kac_equilibrium", energy=energy, **common) for energy in (None, printed)]
+
+
+def reduce(samples, settings):
+    """Return histograms, TVN and fourth moments for both energies, and the coupling times."""
+    width, n = settings["bin_width"], settings["n_particles"]
+    expected, edges = _kac.target(settings, width, math.inf)
+    table = [_energy(samples[case.id], case, expected, width) for case in cases(settings)]
+    finite = histogram.probabilities(lambda v: exact.equilibrium_cumulative(v, n), edges)
+    sample, described = samples[cases(settings)[0].id], store.described
+    dims = ("energy",)
+    variables = {
+        name: described([row[name] for row in table], dims, text)
+        for name, text in {
+            "tvn": "TVN of all draws against eq. (9)",
+            "moment": "mean of v_1**4",
+            "moment_error": "standard error of the mean of v_1**4",
+            "moment_exact": "exact mean of v_1**4 at this N and energy",
+        }.items()
+    }
+    densities = [row["density"] for row in table]
+    n_draws = _kac.n_draws_of(cases(settings)[0])
+    variables |= {
+        "density": described(densities, ("energy", "bin"), "histogram of all draws"),
+        "floor": described(histogram.noise_floor(expected, n_draws), (), "TVN of exact draws"),
+        "floor_spread": described(
+            histogram.noise_spread(expected, n_draws), (), "standard deviation of that TVN"
+        ),
+        "tvn_predicted": described(
+            0.5 * np.abs(finite - expected).sum(), (), "TVN of the exact N-particle law"
+        ),
+        "coupling_time": sample["coupling_time"],
+    }
+    variables |= _coupling(sample, n_draws)
+    return xr.Dataset(variables, coords={"energy": list(ENERGIES), "edge": ("edge", edges)})
+
+
+def _energy(sample, case, expected, width):
+    counts, edges = histogram.coarsen(sample["counts"].values.sum(axis=0), width)
+    moment = _kac.fourth_moment_of(sample, case)
+    p = case.parameters
+    return {
+        "tvn": float(histogram.total_variation(counts, expected)),
+        "moment": moment.value,
+        "moment_error": moment.standard_error,
+        "moment_exact": exact.equilibrium_fourth_moment(p["n_particles"], p["energy"]),
+        "density": counts[1:-1] / counts.sum() / np.diff(edges),
+    }
+
+
+def _coupling(sample, n_draws):
+    """Return mean, spread and range of the coupling time, with the range's spread over replicates."""
+    described = store.described
+    variance = sample["coupling_variance"].mean() + sample["coupling_mean"].var()
+    low, high = sample["coupling_min"].values, sample["coupling_max"].values
+    numbers = {
+        "coupling_mean": (sample["coupling_mean"].mean(), "mean coupling time"),
+        "coupling_error": (np.sqrt(variance / n_draws), "standard error of the mean"),
+        "coupling_spread": (np.sqrt(variance), "standard deviation of the coupling time"),
+        "coupling_min": (low.min(), "smallest coupling time"),
+        "coupling_max": (high.max(), "largest coupling time"),
+        "coupling_min_spread": (low.std(ddof=min(1, low.size - 1)), "spread of replicates' minima"),
+        "coupling_max_spread": (high.std(ddof=min(1, low.size - 1)), "spread of replicates' maxima"),
+    }
+    return {name: described(value, (), text, "steps") for name, (value, text) in numbers.items()}
+
+
+def claims(dataset):
+    """Compare the coupling times and the histogram with what the text prints."""
+    settings = dataset.attrs["settings"]
+    n_draws = settings["n_draws"] * settings["n_replicates"]
+    spread = float(dataset.coupling_spread)
+    size = f"{n_draws} draws, standard deviation {spread:.0f}"
+    found = [
+        verdict.Finding(
+            "kac_fig9_coupling_mean",
+            float(dataset.coupling_mean),
+            float(dataset.coupling_error),
+            published_error=float(dataset.coupling_error),
+            evidence=f"{size}. The literal algorithm gives the same times, draw by draw.",
+        )
+    ]
+    for end in ("min", "max"):
+        found.append(
+            verdict.Finding(
+                f"kac_fig9_coupling_{end}",
+                float(dataset[f"coupling_{end}"]),
+                0.0,
+                published_error=max(1.0, float(dataset[f"coupling_{end}_spread"])),
+                evidence="Error: spread of the extreme over the replicates.",
+            )
+        )
+    return [*found, _histogram_claim(dataset, n_draws), _energy_claim(dataset, settings)]
+
+
+def _histogram_claim(dataset, n_draws):
+    """Test whether the histogram follows eq. (9): its TVN against that of exact draws."""
+    return verdict.Finding(
+        "kac_fig9_histogram",
+        float(dataset.tvn.sel(energy="three_halves")),
+        float(dataset.floor_spread),
+        printed=float(dataset.floor),
+        evidence=f"Noise floor {float(dataset.floor):.4f} for {n_draws} draws; the exact law of "
+        f"N particles is {float(dataset.tvn_predicted):.4f} away from eq. (9).",
+    )
+
+
+def _energy_claim(dataset, settings):
+    """Test E = N: does it give the fourth moment that eq. (9) has at this N?"""
+    moment = _kac.mean_of(dataset, "moment", energy="printed")
+    return verdict.Finding(
+        "kac_3_energy",
+        moment.value,
+        moment.standard_error,
+        printed=float(dataset.moment_exact.sel(energy="three_halves")),
+        corrected=float(dataset.moment_exact.sel(energy="printed")),
+        evidence=f"TVN against eq. (9): {float(dataset.tvn[1]):.3f} with E = N, "
+        f"{float(dataset.tvn[0]):.4f} with E = 3N/2.",
+    )
+
+
+def draw(dataset):
+    """Draw the histogram with eq. (9), and the coupling times with the published range."""
+    figure, axes = plotting.panels(1, 2)
+    label = f"TVN {float(dataset.tvn[0]):.4f}, floor {float(dataset.floor):.4f}"
+    plotting.bars(axes[0], dataset.edge, dataset.density.sel(energy="three_halves"), 0, label)
+    plotting.solution(axes[0], math.inf, "eq. (9)")
+    plotting.velocity_axis(axes[0])
+    plotting.density_axis(axes[0])
+    axes[0].set_ylim(0, 0.45)
+    axes[0].legend(loc="upper right")
+    times = dataset.coupling_time.values
+    axes[1].hist(times, bins=60, density=True, color=plotting.COLOURS[0], alpha=0.6, label="this run")
+    published = dataset.attrs["published"]
+    axes[1].axvline(
+        published["kac_fig9_coupling_mean"], color=plotting.COLOURS[1], label="published mean"
+    )
+    axes[1].axvspan(
+        published["kac_fig9_coupling_min"],
+        published["kac_fig9_coupling_max"],
+        color=plotting.COLOURS[1],
+        alpha=0.15,
+        label="published range",
+    )
+    axes[1].set_xlabel("coupling time in steps")
+    axes[1].set_ylabel("density")
+    axes[1].legend()
+    return figure

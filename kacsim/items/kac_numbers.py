@@ -1,0 +1,76 @@
+"""Every number and every checkable claim of the Kac paper: published, measured, verdict."""
+
+from kacsim import items
+from kacsim.items._lazy import np, plotting, store, verdict, xr
+
+USES = (
+    "kac_fig1",
+    "kac_fig2",
+    "kac_fig3",
+    "kac_fig5",
+    "kac_fig6",
+    "kac_fig9",
+    "kac_bias",
+)
+TEXTS = ("claim", "kind", "verdict", "evidence")
+NUMBERS = {
+    "reference": "published or printed value",
+    "measured": "measured value",
+    "standard_error": "standard error of the measured value",
+    "published_error": "standard error of the published value",
+    "corrected": "corrected value",
+    "z": "(measured - reference) / error",
+    "p_value": "p-value",
+    "adjusted_p_value": "p-value adjusted by Holm",
+}
+
+
+def cases(settings):
+    """Return the cases of all items that the claims are about."""
+    found = []
+    for name in USES:
+        found += items.load(name).cases(settings["items"][name])
+    return found
+
+
+def reduce(samples, settings):
+    """Return one row per claim with its statistic and verdict."""
+    published = items.published()
+    findings = []
+    for name in USES:
+        dataset = items.reduced(name, samples, settings["items"][name])
+        findings += items.load(name).claims(dataset)
+    rows = verdict.judge(findings, published)
+    table = {key: [] for key in (*TEXTS, *NUMBERS)}
+    for finding, row in zip(findings, rows, strict=True):
+        for key in ("claim", "evidence", "measured", "standard_error", "published_error", "corrected"):
+            table[key].append(getattr(finding, key))
+        for key in ("kind", "verdict", "z", "p_value", "adjusted_p_value"):
+            table[key].append(row[key])
+        table["reference"].append(verdict.reference(finding, published[finding.claim]))
+    described, dims = store.described, ("row",)
+    variables = {
+        key: described(np.array(table[key], dtype=float), dims, text)
+        for key, text in NUMBERS.items()
+    }
+    variables |= {key: described(np.array(table[key], dtype=object), dims, key) for key in TEXTS}
+    return xr.Dataset(variables, attrs={"family_error": verdict.FAMILY_ERROR})
+
+
+def draw(dataset):
+    """Draw the statistic of every claim, symbols by verdict."""
+    figure, (axis,) = plotting.panels(1, 1, height=0.26 * dataset.sizes["row"] + 0.8)
+    limit = 30.0
+    row = np.arange(dataset.sizes["row"])
+    z = np.clip(np.nan_to_num(dataset.z.values, posinf=limit, neginf=-limit), -limit, limit)
+    for k, name in enumerate((verdict.REPRODUCED, verdict.CORRECTED, verdict.NOT_REPRODUCED)):
+        here = dataset.verdict.values == name
+        colour, marker = plotting.COLOURS[(2, 0, 1)[k]], plotting.MARKERS[k]
+        axis.plot(z[here], row[here], marker, color=colour, ls="", label=name)
+    axis.axvspan(-4, 4, color="0.9", zorder=0)
+    axis.set_yticks(row, [str(claim) for claim in dataset.claim.values])
+    axis.invert_yaxis()
+    axis.set_xlim(-limit - 1, limit + 1)
+    axis.set_xlabel(f"z = (measured $-$ published) / error, cut at $\\pm${limit:g}; grey: |z| < 4")
+    axis.legend(loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=3)
+    return figure

@@ -1,0 +1,71 @@
+"""Exact laws of the Kac paper: eqs. (8) and (9), and the equilibrium of N particles."""
+
+import math
+
+import numpy as np
+from scipy import special
+
+from kacsim.checks import MEAN_ENERGY, RATE
+
+
+def shape(time, collision_rate=RATE):
+    """Return C(t) = 1 / (3 - 2 exp(-rate t / 8)) of eq. (8); time may be infinite."""
+    return 1.0 / (3.0 - 2.0 * math.exp(-collision_rate * time / 8.0))
+
+
+def printed_shape(time):
+    """Return C(t) as one version of the text prints it: exp(-sqrt(pi t) / 16)."""
+    return 1.0 / (3.0 - 2.0 * math.exp(-math.sqrt(math.pi * time) / 16.0))
+
+
+def density(v, time, collision_rate=RATE):
+    """Return f(v, t), the solution of the Kac equation (Kac paper, eqs. 8 and 9).
+
+    Parameters
+    ----------
+    v : float or array of velocities
+    time : float >= 0, or math.inf for the equilibrium, Normal(0, 3/2)
+    """
+    c = shape(time, collision_rate)
+    v = np.asarray(v, dtype=float)
+    constant = 1.5 * (1.0 - c) * math.sqrt(c)
+    quadratic = (3.0 * c - 1.0) * c**1.5
+    return (constant + quadratic * v**2) * np.exp(-c * v**2) / math.sqrt(math.pi)
+
+
+def survival(v, time, collision_rate=RATE):
+    """Return P(V > v) under eq. (8), without cancellation in the upper tail."""
+    c = shape(time, collision_rate)
+    w = math.sqrt(c) * np.asarray(v, dtype=float)
+    odd = (3.0 * c - 1.0) / (2.0 * math.sqrt(math.pi)) * w * np.exp(-(w**2))
+    return 0.5 * special.erfc(w) + odd
+
+
+def cumulative(v, time, collision_rate=RATE):
+    """Return P(V <= v) under eq. (8); arguments as `density`."""
+    return survival(-np.asarray(v, dtype=float), time, collision_rate)
+
+
+def equilibrium_cumulative(v, n_particles, energy=None):
+    """Return P(v_1 <= v) at the equilibrium of N particles: v_1**2 / E ~ Beta(1/2, (N - 1)/2).
+
+    Parameters
+    ----------
+    v : float or array
+    energy : the ensemble's sum of v**2, by default 3 N / 2
+    """
+    total = MEAN_ENERGY * n_particles if energy is None else energy
+    v = np.asarray(v, dtype=float)
+    inside = special.betainc(0.5, 0.5 * (n_particles - 1), np.minimum(v**2 / total, 1.0))
+    return 0.5 + 0.5 * np.sign(v) * inside
+
+
+def equilibrium_fourth_moment(n_particles, energy=None):
+    """Return E v_1**4 = 3 E**2 / (N (N + 2)) at the equilibrium of N particles."""
+    total = MEAN_ENERGY * n_particles if energy is None else energy
+    return 3.0 * total**2 / (n_particles * (n_particles + 2.0))
+
+
+def shape_fourth_moment(c):
+    """Return E v**4 = (18 C - 3) / (4 C**2) of the density (8) for a value of C."""
+    return (18.0 * c - 3.0) / (4.0 * c**2)

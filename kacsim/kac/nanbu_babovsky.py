@@ -1,0 +1,172 @@
+"""The Nanbu-Babovsky algorithm: disjoint pairs, both partners updated (Kac paper, 4.1)."""
+
+import math
+
+import numpy as np
+from numba import int64
+
+from kacsim.checks import n_steps
+from kacsim.jit import inlined, kernel
+from kacsim.kac.model import (
+    collide,
+    fill_initial_energies,
+    grown,
+    initial_velocity,
+    share,
+    signed_root,
+)
+from kacsim.variates import failures_before_success, gap_scale, index_below, uniform
+
+
+def arguments(*, n_particles, time, time_step, collision_rate, **_):
+    """Return the kernels' parameters: particles, steps, and mean number of pairs of a step."""
+    return n_particles, n_steps(time, time_step), collision_rate * n_particles * time_step / 2
+
+
+@kernel
+def forward(velocities, own, n_particles, steps, mean_pairs, stream):
+    """Draw v_1(t) from whole ensembles, as published.
+
+    At each step Round[mean_pairs] pairs are drawn without replacement, by a partial shuffle.
+
+    Parameters
+    ----------
+    velocities : float64[n], overwritten by independent draws of v_1
+    own : int64[n], overwritten by the number of collisions of particle 1
+    n_particles, steps, mean_pairs : from `arguments`
+    stream : uint64[4], advanced
+
+    Returns
+    -------
+    int, collisions simulated
+    """
+    v = np.empty(n_particles)
+    order = np.arange(n_particles)
+    whole = math.floor(mean_pairs)
+    simulated = 0
+    for draw in range(velocities.size):
+        for i in range(n_particles):
+            v[i] = initial_velocity(stream)
+        touched = 0
+        for _ in range(steps):
+            pairs = whole + int64(uniform(stream) < mean_pairs - whole)
+            for k in range(2 * pairs):
+                chosen = k + index_below(n_particles - k, stream)
+                order[k], order[chosen] = order[chosen], order[k]
+            for k in range(pairs):
+                i, j = order[2 * k], order[2 * k + 1]
+                collide(v, i, j, stream)
+                touched += (i == 0) + (j == 0)
+            simulated += pairs
+        velocities[draw] = v[0]
+        own[draw] = touched
+    return simulated
+
+
+@kernel
+def ancestral(velocities, own, n_particles, steps, mean_pairs, stream):
+    """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
+
+    Steps whose pairs leave all ancestors alone are skipped geometrically; in the others the
+    ancestors' partners are revealed one after another.
+    """
+    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
+    energy = np.empty(64)
+    taken = np.zeros(n_particles, np.bool_)
+    simulated = 0
+    for draw in range(velocities.size):
+        n, members, touched, left = 0, 1, 0, steps
+        while True:
+            spared_few, spared_more = spared_chances(members, n_particles, mean_pairs)
+            scale = gap_scale(1.0 - spared_few - spared_more)
+            left -= failures_before_success(scale, stream) + 1
+            if left < 0:
+                break
+            while first.size < n + members:
+                first, second = grown(first), grown(second)
+            start = n
+            n, members = reveal(first, second, n, members, n_particles, mean_pairs, taken, stream)
+            for event in range(start, n):
+                touched += (first[event] == 0) + (second[event] == 0)
+        energy = fill_initial_energies(energy, members, stream)
+        for event in range(n - 1, -1, -1):
+            share(energy, first[event], second[event], stream)
+        velocities[draw] = signed_root(energy[0], stream)
+        own[draw] = touched
+        simulated += n
+    return simulated
+
+
+@inlined
+def spared(members, n_particles, pairs):
+    """Return the chance that a matching of `pairs` disjoint pairs leaves all members alone."""
+    chance = 1.0
+    for k in range(members):
+        chance *= max(0.0, 1.0 - 2.0 * pairs / (n_particles - k))
+    return chance
+
+
+@inlined
+def spared_chances(members, n_particles, mean_pairs):
+    """Return the joint chances (fewer pairs, more pairs) of a step that spares all members."""
+    whole = math.floor(mean_pairs)
+    more = mean_pairs - whole
+    few = (1.0 - more) * spared(members, n_particles, whole)
+    return few, more * spared(members, n_particles, whole + 1)
+
+
+@inlined
+def reveal(first, second, n, members, n_particles, mean_pairs, taken, stream):
+    """Record the pairs of one step that touch the ancestors, given that at least one does.
+
+    Parameters
+    ----------
+    first, second : int64[>= n + members], pairs, written from place n on
+    taken : bool[n_particles], all False, also on return: members paired as a partner
+
+    Returns
+    -------
+    (int, int), the numbers of pairs recorded and of ancestors
+    """
+    whole = math.floor(mean_pairs)
+    more = mean_pairs - whole
+    touch_few = (1.0 - more) * (1.0 - spared(members, n_particles, whole))
+    touch_more = more * (1.0 - spared(members, n_particles, whole + 1))
+    pairs = whole + int64(uniform(stream) * (touch_few + touch_more) >= touch_few)
+    # The first member touched, by inversion of its conditional law.
+    target = uniform(stream) * (1.0 - spared(members, n_particles, pairs))
+    lead, alone = 0, 1.0 - 2.0 * pairs / n_particles
+    while lead < members - 1 and 1.0 - alone <= target:
+        lead += 1
+        alone *= 1.0 - 2.0 * pairs / (n_particles - lead)
+    known, unseen, free = members, n_particles - lead, members - lead
+    for i in range(lead, known):
+        if taken[i]:
+            continue
+        # `unseen` particles, `free` of them members from i on, hold the remaining pairs.
+        if i == lead or uniform(stream) * unseen < 2.0 * pairs:
+            if uniform(stream) * (unseen - 1) < free - 1:
+                j = untaken(i, index_below(free - 1, stream), taken)
+                taken[j] = True
+                free -= 1
+            else:
+                j = members
+                members += 1
+            first[n], second[n] = i, j
+            n += 1
+            pairs -= 1
+            unseen -= 1
+        unseen -= 1
+        free -= 1
+    taken[:known] = False
+    return n, members
+
+
+@inlined
+def untaken(i, rank, taken):
+    """Return the member after i that has `rank` members not yet taken between them."""
+    j = i + 1
+    while taken[j] or rank > 0:
+        rank -= not taken[j]
+        j += 1
+    return j

@@ -1,0 +1,134 @@
+"""The Poisson algorithm, exact for the N-particle process, and as printed (Kac paper, 4.3).
+
+Both are one kernel: they differ in the rate at which the other N - 1 particles collide among
+themselves. The ensemble's rate N/2 less particle 1's own 1 (in units of the collision rate)
+leaves (N - 2)/2, i.e. 1/(N - 1) for each of their pairs; the text prints (N - 1)/2, i.e.
+1/(N - 2) for each pair.
+"""
+
+import math
+
+import numpy as np
+
+from kacsim.jit import inlined, kernel
+from kacsim.kac.model import (
+    collide,
+    fill_initial_energies,
+    grown,
+    initial_velocity,
+    share,
+    signed_root,
+)
+from kacsim.variates import exponential, index_below, pair_below, uniform
+
+
+def arguments(*, algorithm, n_particles, time, collision_rate, **_):
+    """Return the kernels' parameters: particles, mean collisions of particle 1, rate of a pair.
+
+    Infinitely many particles are passed as 0. The pair's rate is that of two particles other
+    than particle 1, in units of the collision rate; two particles leave no such pair.
+    """
+    if math.isinf(n_particles):
+        return 0, collision_rate * time, 0.0
+    others = n_particles - (1 if algorithm == "poisson" else 2)
+    return n_particles, collision_rate * time, 0.0 if n_particles == 2 else 1.0 / others
+
+
+@inlined
+def poisson_number(mean, stream):
+    """Return a Poisson variate by counting unit-rate arrivals before `mean`."""
+    number = 0
+    clock = exponential(stream)
+    while clock < mean:
+        number += 1
+        clock += exponential(stream)
+    return number
+
+
+@kernel
+def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
+    """Draw v_1(t) from whole ensembles, as published.
+
+    The sorted uniform times of particle 1's K collisions are drawn one after another: the first
+    of k uniform times on a span ends at the fraction 1 - U**(1/k) of it.
+
+    Parameters
+    ----------
+    velocities : float64[n], overwritten by independent draws of v_1
+    own : int64[n], overwritten by the number of collisions of particle 1
+    n_particles, mean_own, pair_rate : from `arguments`
+    stream : uint64[4], advanced
+
+    Returns
+    -------
+    int, collisions simulated
+    """
+    v = np.empty(n_particles)
+    others = n_particles - 1
+    others_rate = pair_rate * others * (others - 1) / 2
+    simulated = 0
+    for draw in range(velocities.size):
+        for i in range(n_particles):
+            v[i] = initial_velocity(stream)
+        n_own = poisson_number(mean_own, stream)
+        span = mean_own
+        for k in range(n_own, 0, -1):
+            gap = -span * math.expm1(-exponential(stream) / k)
+            span -= gap
+            clock = exponential(stream)
+            while clock < others_rate * gap:
+                i, j = pair_below(others, stream)
+                collide(v, i + 1, j + 1, stream)
+                simulated += 1
+                clock += exponential(stream)
+            collide(v, 0, index_below(others, stream) + 1, stream)
+        velocities[draw] = v[0]
+        own[draw] = n_own
+        simulated += n_own
+    return simulated
+
+
+@kernel
+def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream):
+    """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
+
+    Infinitely many particles (0) give McKean's tree: exact draws of the Kac equation.
+    """
+    inverse = 0.0 if n_particles == 0 else 1.0 / (n_particles - 1)
+    reach = 1.0 if n_particles == 0 else pair_rate * (n_particles - 1)
+    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
+    energy = np.empty(64)
+    simulated = 0
+    for draw in range(velocities.size):
+        n, others, touched, left = 0, 0, 0, mean_own
+        while True:
+            # Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
+            others_rate = others * (reach - 0.5 * pair_rate * (others + 1))
+            total = 1.0 + others_rate
+            left -= exponential(stream) / total
+            if left < 0.0:
+                break
+            if n == first.size:
+                first, second = grown(first), grown(second)
+            if uniform(stream) * total < 1.0:
+                i = 0
+                touched += 1
+                inner = uniform(stream) < others * inverse
+                j = 1 + index_below(others, stream)
+            else:
+                i = 1 + index_below(others, stream)
+                inner = uniform(stream) * others_rate < 0.5 * pair_rate * others * (others - 1)
+                j = 1 + index_below(others - 1, stream)
+                j += j >= i
+            if not inner:
+                others += 1
+                j = others
+            first[n], second[n] = i, j
+            n += 1
+        energy = fill_initial_energies(energy, others + 1, stream)
+        for event in range(n - 1, -1, -1):
+            share(energy, first[event], second[event], stream)
+        velocities[draw] = signed_root(energy[0], stream)
+        own[draw] = touched
+        simulated += n
+    return simulated

@@ -1,0 +1,130 @@
+"""One style for all figures: colours, symbols, names and shared axes; no computing."""
+
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy as np
+from matplotlib import pyplot, ticker
+
+from kacsim.kac import exact
+from kacsim.store import replace_file
+
+# Okabe and Ito's colours, told apart by all common kinds of colour vision; markers differ too.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+NAMES = {
+    "nanbu_sequential": "Nanbu (sequential)",
+    "nanbu_synchronous": "Nanbu (synchronous)",
+    "nanbu_babovsky": "Nanbu–Babovsky",
+    "bird": "Bird",
+    "poisson": "Poisson (exact)",
+    "poisson_printed": "Poisson (printed rate)",
+}
+STYLE = {
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "legend.fontsize": 7.5,
+    "legend.framealpha": 0.8,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "savefig.dpi": 200,
+    "svg.hashsalt": "kacsim",
+    "svg.fonttype": "path",
+    "pdf.fonttype": 42,
+}
+PANEL_WIDTH, PANEL_HEIGHT = 3.5, 2.7
+SINGLE_WIDTH = 5.0
+
+
+def panels(rows, columns, *, share_y=False, height=None, projection=None):
+    """Return (figure, flat list of axes) in the project's style."""
+    pyplot.rcParams.update(STYLE)
+    width = SINGLE_WIDTH if columns == 1 else PANEL_WIDTH * columns
+    keywords = {"projection": projection} if projection else None
+    figure, axes = pyplot.subplots(
+        rows,
+        columns,
+        figsize=(width, (height or PANEL_HEIGHT + 0.4 * (columns == 1)) * rows),
+        sharey=share_y,
+        squeeze=False,
+        layout="constrained",
+        subplot_kw=keywords,
+    )
+    return figure, list(axes.flat)
+
+
+def points(axis, x, y, errors, k, label, *, line=True):
+    """Draw points with error bars of one standard error in the k-th colour and symbol."""
+    axis.errorbar(
+        np.asarray(x),
+        np.asarray(y),
+        yerr=np.asarray(errors),
+        color=COLOURS[k],
+        marker=MARKERS[k],
+        ms=4,
+        lw=0.8 if line else 0,
+        elinewidth=0.8,
+        capsize=1.5,
+        label=label,
+    )
+
+
+def bars(axis, edges, density, k, label):
+    """Draw a histogram as an outline over a light fill, in the k-th colour."""
+    axis.stairs(
+        np.asarray(density), np.asarray(edges), fill=True, color=COLOURS[k], alpha=0.25, lw=0
+    )
+    axis.stairs(np.asarray(density), np.asarray(edges), color=COLOURS[k], lw=0.8, label=label)
+
+
+def solution(axis, time, label="eq. (8)"):
+    """Draw the exact density at a time."""
+    grid = np.linspace(-5, 5, 401)
+    axis.plot(grid, exact.density(grid, time), color="black", lw=1, label=label)
+
+
+def floor(axis, value):
+    """Mark the noise floor of a TVN axis."""
+    axis.axhline(value, color="0.5", ls=":", lw=1.2, label="noise floor")
+
+
+def velocity_axis(axis):
+    """Name and bound the velocity axis."""
+    axis.set_xlim(-5, 5)
+    axis.set_xlabel("velocity $v_1$")
+
+
+def density_axis(axis):
+    """Name the density axis."""
+    axis.set_ylabel("density")
+
+
+def plain_log(axis):
+    """Label a logarithmic axis with plain numbers at 1, 2 and 5 of each decade."""
+    axis.set_major_locator(ticker.LogLocator(base=10, subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def pm(mean):
+    """Return an estimate as text, with two digits of its error."""
+    if not (mean.standard_error > 0):
+        return f"{mean.value:.4g}"
+    digits = max(0, 1 - math.floor(math.log10(mean.standard_error)))
+    return f"{mean.value:.{digits}f} ± {mean.standard_error:.{digits}f}"
+
+
+def save(figure, path):
+    """Write a figure; the suffix sets the format and no file holds a time or a random id."""
+    suffix = str(path).rpartition(".")[2]
+    metadata = {
+        "png": {"Software": None},
+        "svg": {"Date": None, "Creator": None},
+        "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+    }[suffix]
+    replace_file(path, lambda name: figure.savefig(name, format=suffix, metadata=metadata))

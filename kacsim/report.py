@@ -1,0 +1,3 @@
+def write(items, datasets, figures, output):
+    """Write."""
+    open(output,"w").write("x")

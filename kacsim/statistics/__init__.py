@@ -1,0 +1,1 @@
+"""Histograms, estimates, tails and verdicts."""

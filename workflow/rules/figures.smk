@@ -1,0 +1,34 @@
+# Stage 3: a dataset becomes a figure in three formats.
+
+
+rule draw:
+    """Draw one figure from its dataset; no computing happens here."""
+    input:
+        "results/datasets/{item}.nc",
+    output:
+        expand("results/figures/{{item}}.{format}", format=FORMATS),
+    log:
+        "logs/draw/{item}.log",
+    benchmark:
+        "benchmarks/draw/{item}.tsv"
+    threads: 1
+    resources:
+        mem_mb=600,
+        runtime=10,
+    params:
+        code=lambda wildcards: source_hash(*plan.draw_sources(wildcards.item)),
+    message:
+        "Drawing {wildcards.item}"
+    shell:
+        "{KACSIM} draw {wildcards.item} --dataset {input} --output {output}"
+        " > {log} 2>&1"
+
+
+# Each item is a target of its own name, so that `snakemake -c2 kac_fig3` works.
+for item_name in items.NAMES:
+
+    rule:
+        name:
+            item_name
+        input:
+            expand("results/figures/{item}.{format}", item=item_name, format=FORMATS),

@@ -3,14 +3,15 @@
 import math
 
 import numpy as np
+from numba import int64
 
 from kacsim.jit import inlined, kernel
 from kacsim.kac.model import (
     collide,
-    fill_initial_energies,
-    grown,
+    copy_state,
+    growing,
     initial_velocity,
-    share,
+    replay,
     signed_root,
 )
 from kacsim.variates import failures_before_success, gap_scale, index_below, pair_below, uniform
@@ -53,39 +54,38 @@ def forward(velocities, own, n_particles, n_collisions, stream):
     return velocities.size * n_collisions
 
 
+@growing
 @kernel
-def ancestral(velocities, own, n_particles, n_collisions, stream):
+def ancestral(velocities, own, n_particles, n_collisions, stream, first, second, energy):
     """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`."""
     scales = touch_scales(n_particles)
-    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
-    energy = np.empty(64)
+    start = stream.copy()
     simulated = 0
     for draw in range(velocities.size):
+        copy_state(stream, start)
         n, members, touched, left = 0, 1, 0, n_collisions
         while True:
             scale = scales[members] if members < scales.size else touch_scale(members, n_particles)
             left -= failures_before_success(scale, stream) + 1
             if left < 0:
                 break
+            if n == first.size:
+                copy_state(start, stream)
+                return draw, simulated
             i = index_below(members, stream)
+            j = members
             if uniform(stream) * (2.0 * n_particles - members - 1) < members - 1:
                 j = index_below(members - 1, stream)
-                j += j >= i
+                j += int64(j >= i)
             else:
-                j = members
                 members += 1
-            if n == first.size:
-                first, second = grown(first), grown(second)
             first[n], second[n] = i, j
-            touched += (i == 0) + (j == 0)
+            touched += int64(i == 0) + int64(j == 0)
             n += 1
-        energy = fill_initial_energies(energy, members, stream)
-        for event in range(n - 1, -1, -1):
-            share(energy, first[event], second[event], stream)
-        velocities[draw] = signed_root(energy[0], stream)
+        velocities[draw] = signed_root(replay(energy, members, first, second, n, stream), stream)
         own[draw] = touched
         simulated += n
-    return simulated
+    return velocities.size, simulated
 
 
 @inlined

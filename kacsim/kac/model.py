@@ -1,5 +1,6 @@
 """Kac's model: the initial law f0 and the collision (Kac paper, sections 2.1 and 3)."""
 
+import functools
 import math
 
 import numpy as np
@@ -63,19 +64,56 @@ def signed_root(energy, stream):
     return math.sqrt(energy) * random_sign(stream)
 
 
-@inlined
-def grown(array):
-    """Return the array copied into one twice as long."""
-    longer = np.empty(2 * array.size, array.dtype)
-    longer[: array.size] = array
-    return longer
+def growing(attempt):
+    """Give an ancestral kernel a workspace that is as large as its largest history needs.
+
+    Parameters
+    ----------
+    attempt : kernel (velocities, own, *arguments, stream, first, second, energy) that returns
+        (draws done, collisions simulated). When a history does not fit into the workspace it
+        puts the stream back to the beginning of that draw and returns.
+
+    Returns
+    -------
+    function (velocities, own, *arguments, stream) -> int, collisions simulated, as a forward
+    kernel; a growing array inside the kernel would cost a reference count per collision
+    """
+
+    @functools.wraps(attempt)
+    def ancestral(velocities, own, *arguments):
+        done, simulated, capacity = 0, 0, 256
+        while done < velocities.size:
+            first, second = np.empty(capacity, np.int64), np.empty(capacity, np.int64)
+            energy = np.empty(capacity + 1)
+            more, collisions = attempt(
+                velocities[done:], own[done:], *arguments, first, second, energy
+            )
+            done += more
+            simulated += collisions
+            capacity *= 2
+        return simulated
+
+    return ancestral
 
 
 @inlined
-def fill_initial_energies(energy, n, stream):
-    """Draw the first n energies under f0; return the array, replaced by a longer one if short."""
-    while energy.size < n:
-        energy = grown(energy)
-    for i in range(n):
+def copy_state(source, target):
+    """Copy a stream's state, uint64[4]."""
+    for k in range(4):
+        target[k] = source[k]
+
+
+@inlined
+def replay(energy, n_ancestors, first, second, n_events, stream):
+    """Draw the ancestors' energies at time 0 and replay their collisions; return that of v_1.
+
+    Parameters
+    ----------
+    energy : float64[> n_ancestors], overwritten
+    first, second : int64[n_events], pairs of ancestors, the latest collision first
+    """
+    for i in range(n_ancestors):
         energy[i] = initial_energy(stream)
-    return energy
+    for event in range(n_events - 1, -1, -1):
+        share(energy, first[event], second[event], stream)
+    return energy[0]

@@ -14,9 +14,10 @@ from numba import int64
 from kacsim.checks import n_steps
 from kacsim.jit import inlined, kernel
 from kacsim.kac.model import (
+    copy_state,
     deflect,
-    fill_initial_energies,
-    grown,
+    growing,
+    initial_energy,
     initial_velocity,
     signed_root,
 )
@@ -126,32 +127,34 @@ def insert(array, place, length, value):
     array[place] = value
 
 
+@growing
 @kernel
-def ancestral_sequential(velocities, own, n_particles, steps, probability, stream):
+def ancestral_sequential(
+    velocities, own, n_particles, steps, probability, stream, first, second, energy
+):
     """Draw v_1(t) from the ancestors only; same law and parameters as `forward_sequential`.
 
     A step backward visits the ancestors from the highest label to the lowest. A new ancestor of
     lower label is visited later in the same step, one of higher label was read before its turn.
     """
     scale = gap_scale(probability)
-    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
     labels, slots = np.empty(n_particles, np.int64), np.empty(n_particles, np.int64)
-    energy = np.empty(64)
+    start = stream.copy()
     simulated = 0
     for draw in range(velocities.size):
+        copy_state(stream, start)
         labels[0], slots[0] = 0, 0
         n, members, touched, left, place = 0, 1, 0, steps, 0
         gap = int64(failures_before_success(scale, stream))
         while True:
             if gap >= members - place:
-                # No further collision in this step: end it, then leave out whole steps.
-                gap -= members - place
-                whole = gap // members
-                left -= 1 + whole
-                gap -= whole * members
+                left, gap = leave_step(left, gap - (members - place), members)
                 place = 0
                 if left <= 0:
                     break
+            if n == first.size:
+                copy_state(start, stream)
+                return draw, simulated
             place += gap
             i, slot = labels[place], slots[place]
             j = partner_of(i, n_particles, stream)
@@ -160,74 +163,96 @@ def ancestral_sequential(velocities, own, n_particles, steps, probability, strea
                 insert(labels, found, members, j)
                 insert(slots, found, members, members)
                 members += 1
-                place += found <= place
-            if n == first.size:
-                first, second = grown(first), grown(second)
+                place += int64(found <= place)
             first[n], second[n] = slot, slots[found]
-            touched += i == 0
+            touched += int64(i == 0)
             n += 1
             place += 1
             gap = int64(failures_before_success(scale, stream))
-        energy = fill_initial_energies(energy, members, stream)
-        for event in range(n - 1, -1, -1):
-            total = energy[first[event]] + energy[second[event]]
-            energy[first[event]] = total * squared_cosine(stream)
-        velocities[draw] = signed_root(energy[0], stream)
+        velocities[draw] = signed_root(
+            replay_in_place(energy, members, first, second, n, stream), stream
+        )
         own[draw] = touched
         simulated += n
-    return simulated
+    return velocities.size, simulated
 
 
+@inlined
+def leave_step(left, gap, members):
+    """Return (steps left, gap) after the end of a step and the whole steps that the gap spans."""
+    whole = gap // members
+    return left - 1 - whole, gap - whole * members
+
+
+@inlined
+def replay_in_place(energy, n_ancestors, first, second, n_events, stream):
+    """Draw the ancestors' energies and replay their collisions in order; return that of v_1."""
+    for i in range(n_ancestors):
+        energy[i] = initial_energy(stream)
+    for event in range(n_events - 1, -1, -1):
+        total = energy[first[event]] + energy[second[event]]
+        energy[first[event]] = total * squared_cosine(stream)
+    return energy[0]
+
+
+@growing
 @kernel
-def ancestral_synchronous(velocities, own, n_particles, steps, probability, stream):
+def ancestral_synchronous(
+    velocities, own, n_particles, steps, probability, stream, first, second, energy
+):
     """Draw v_1(t) from the ancestors only; same law and parameters as `forward_synchronous`.
 
     Ancestors found during a step are needed at its old level only: they take part from the
     next step backward on. Labels are not needed: the other particles are exchangeable.
     """
     scale = gap_scale(probability)
-    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
-    step_of, new = np.empty(64, np.int64), np.empty(64)
-    energy = np.empty(64)
+    step_of, new = np.empty(first.size, np.int64), np.empty(first.size)
+    start = stream.copy()
     simulated = 0
     for draw in range(velocities.size):
+        copy_state(stream, start)
         n, members, old, touched, left, place = 0, 1, 1, 0, steps, 0
         gap = int64(failures_before_success(scale, stream))
         while True:
             if gap >= old - place:
-                gap -= old - place
-                old = members
-                whole = gap // old
-                left -= 1 + whole
-                gap -= whole * old
-                place = 0
+                left, gap = leave_step(left, gap - (old - place), members)
+                old, place = members, 0
                 if left <= 0:
                     break
+            if n == first.size:
+                copy_state(start, stream)
+                return draw, simulated
             place += gap
             j = members
             if uniform(stream) * (n_particles - 1) < members - 1:
                 j = partner_of(place, members, stream)
             else:
                 members += 1
-            if n == first.size:
-                first, second, step_of, new = grown(first), grown(second), grown(step_of), grown(new)
             first[n], second[n], step_of[n] = place, j, left
-            touched += place == 0
+            touched += int64(place == 0)
             n += 1
             place += 1
             gap = int64(failures_before_success(scale, stream))
-        energy = fill_initial_energies(energy, members, stream)
-        replay_steps(energy, first, second, step_of, new, n, stream)
-        velocities[draw] = signed_root(energy[0], stream)
+        velocities[draw] = signed_root(
+            replay_steps(energy, members, first, second, step_of, new, n, stream), stream
+        )
         own[draw] = touched
         simulated += n
-    return simulated
+    return velocities.size, simulated
 
 
 @inlined
-def replay_steps(energy, first, second, step_of, new, n, stream):
-    """Replay n recorded collisions from the earliest step on, each step at its old level."""
-    event = n - 1
+def replay_steps(energy, n_ancestors, first, second, step_of, new, n_events, stream):
+    """Draw the ancestors' energies and replay step by step, each at its old level.
+
+    Parameters
+    ----------
+    step_of : int64[n_events], the step of each collision, not increasing in time
+    new : float64[>= n_events], overwritten
+    """
+    for i in range(n_ancestors):
+        energy[i] = initial_energy(stream)
+    event = n_events - 1
     while event >= 0:
         last = event
         while event >= 0 and step_of[event] == step_of[last]:
@@ -236,3 +261,4 @@ def replay_steps(energy, first, second, step_of, new, n, stream):
             event -= 1
         for k in range(event + 1, last + 1):
             energy[first[k]] = new[k]
+    return energy[0]

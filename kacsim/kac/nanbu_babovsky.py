@@ -9,10 +9,10 @@ from kacsim.checks import n_steps
 from kacsim.jit import inlined, kernel
 from kacsim.kac.model import (
     collide,
-    fill_initial_energies,
-    grown,
+    copy_state,
+    growing,
     initial_velocity,
-    share,
+    replay,
     signed_root,
 )
 from kacsim.variates import failures_before_success, gap_scale, index_below, uniform
@@ -63,18 +63,19 @@ def forward(velocities, own, n_particles, steps, mean_pairs, stream):
     return simulated
 
 
+@growing
 @kernel
-def ancestral(velocities, own, n_particles, steps, mean_pairs, stream):
+def ancestral(velocities, own, n_particles, steps, mean_pairs, stream, first, second, energy):
     """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
 
     Steps whose pairs leave all ancestors alone are skipped geometrically; in the others the
     ancestors' partners are revealed one after another.
     """
-    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
-    energy = np.empty(64)
     taken = np.zeros(n_particles, np.bool_)
+    start = stream.copy()
     simulated = 0
     for draw in range(velocities.size):
+        copy_state(stream, start)
         n, members, touched, left = 0, 1, 0, steps
         while True:
             spared_few, spared_more = spared_chances(members, n_particles, mean_pairs)
@@ -82,19 +83,17 @@ def ancestral(velocities, own, n_particles, steps, mean_pairs, stream):
             left -= failures_before_success(scale, stream) + 1
             if left < 0:
                 break
-            while first.size < n + members:
-                first, second = grown(first), grown(second)
-            start = n
+            if n + members > first.size:
+                copy_state(start, stream)
+                return draw, simulated
+            before = n
             n, members = reveal(first, second, n, members, n_particles, mean_pairs, taken, stream)
-            for event in range(start, n):
-                touched += (first[event] == 0) + (second[event] == 0)
-        energy = fill_initial_energies(energy, members, stream)
-        for event in range(n - 1, -1, -1):
-            share(energy, first[event], second[event], stream)
-        velocities[draw] = signed_root(energy[0], stream)
+            for event in range(before, n):
+                touched += int64(first[event] == 0) + int64(second[event] == 0)
+        velocities[draw] = signed_root(replay(energy, members, first, second, n, stream), stream)
         own[draw] = touched
         simulated += n
-    return simulated
+    return velocities.size, simulated
 
 
 @inlined

@@ -46,39 +46,69 @@ def apply_steps(images, first, second, part, start, stop):
 
 
 @inlined
-def spread_from(corner, roots, distances):
-    """Return the largest squared distance of a corner image from the others.
+def squared_gap(images, i, j):
+    """Return the squared distance of two corner images, in units of the energy: O(N)."""
+    total = 0.0
+    for k in range(images.shape[1]):
+        gap = math.sqrt(images[i, k]) - math.sqrt(images[j, k])
+        total += gap * gap
+    return total
+
+
+@inlined
+def squared_gaps(roots, point, gaps):
+    """Compute the squared distances of all corner images from a point.
 
     Parameters
     ----------
     roots : float64[N, N], column i the image of corner i in velocities
-    distances : float64[N], overwritten
+    point : float64[N]
+    gaps : float64[N], overwritten
     """
-    distances[:] = 0.0
+    gaps[:] = 0.0
     for k in range(roots.shape[0]):
-        here = roots[k, corner]
+        here = point[k]
         for i in range(roots.shape[1]):
             gap = roots[k, i] - here
-            distances[i] += gap * gap
-    return distances.max()
+            gaps[i] += gap * gap
 
 
 @inlined
-def squared_diameter(images, roots, distances, enough):
-    """Return the largest squared distance D**2 of two corner images, in units of the energy.
+def farthest_pair(images, roots, centre, radii, gaps, goal, pair):
+    """Return D**2, the largest squared distance of two corner images, in units of the energy.
 
-    The search stops at the first corner that shows D**2 >= enough; what it returns then is a
-    lower bound of D**2, at least `enough`.
+    A pair that shows D**2 >= goal ends the search, the last farthest pair being tried first: the
+    result is then a lower bound of D**2, at least `goal`. Below `goal` the result may be an upper
+    bound. Only corners far enough from the centre of all are compared with the others.
+
+    Parameters
+    ----------
+    images, roots, centre, radii, gaps : the images, and workspace that is overwritten
+    pair : int64[2], the last farthest pair, replaced by the one found
     """
     n = images.shape[0]
+    last = squared_gap(images, pair[0], pair[1])
+    if last >= goal:
+        return last
     for i in range(n):
         for k in range(n):
             roots[k, i] = math.sqrt(images[i, k])
-    largest = 0.0
-    for corner in range(n):
-        largest = max(largest, spread_from(corner, roots, distances))
-        if largest >= enough:
-            break
+    for k in range(n):
+        centre[k] = roots[k].sum() / n
+    squared_gaps(roots, centre, radii)
+    widest = math.sqrt(radii.max())
+    if 4.0 * widest * widest < goal:
+        return 4.0 * widest * widest
+    largest, least = 0.0, math.sqrt(goal) - widest
+    for i in range(n):
+        if math.sqrt(radii[i]) >= least:
+            squared_gaps(roots, roots[:, i], gaps)
+            j = gaps.argmax()
+            if gaps[j] > largest:
+                largest = gaps[j]
+                pair[0], pair[1] = i, j
+                if largest >= goal:
+                    break
     return largest
 
 
@@ -100,7 +130,8 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
     """
     n = n_particles
     images, saved, roots = np.empty((n, n)), np.empty((n, n)), np.empty((n, n))
-    distances = np.empty(n)
+    centre, radii, gaps = np.empty(n), np.empty(n), np.empty(n)
+    pair = np.array([0, 1])
     first, second = np.empty(BLOCK, np.int64), np.empty(BLOCK, np.int64)
     part = np.empty(BLOCK)
     goal = tolerance * tolerance / energy
@@ -112,14 +143,14 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
         steps = 0
         spread = 2.0
         while spread >= goal:
-            expected = 0.4 * math.log(spread / goal) / CONTRACTION_RATE
-            block = min(BLOCK, max(1 + n // 4, int(n * expected)))
+            expected = 0.4 * math.log(spread / goal) / CONTRACTION_RATE if spread > goal else 0.0
+            block = min(BLOCK, max(1 + n // 3, int(n * expected)))
             draw_steps(first, second, part, block, n, stream)
             saved[:] = images
             apply_steps(images, first, second, part, 0, block)
             steps += block
             applied += block
-            spread = squared_diameter(images, roots, distances, goal)
+            spread = farthest_pair(images, roots, centre, radii, gaps, goal, pair)
         # D >= tolerance after `low` steps of this block, D < tolerance after `high`.
         low, high = 0, block
         while high - low > 1:
@@ -127,7 +158,7 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
             images[:] = saved
             apply_steps(images, first, second, part, low, middle)
             applied += middle - low
-            if squared_diameter(images, roots, distances, goal) < goal:
+            if farthest_pair(images, roots, centre, radii, gaps, goal, pair) < goal:
                 high = middle
             else:
                 low = middle

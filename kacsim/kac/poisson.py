@@ -9,14 +9,15 @@ leaves (N - 2)/2, i.e. 1/(N - 1) for each of their pairs; the text prints (N - 1
 import math
 
 import numpy as np
+from numba import int64
 
 from kacsim.jit import inlined, kernel
 from kacsim.kac.model import (
     collide,
-    fill_initial_energies,
-    grown,
+    copy_state,
+    growing,
     initial_velocity,
-    share,
+    replay,
     signed_root,
 )
 from kacsim.variates import exponential, index_below, pair_below, uniform
@@ -88,18 +89,21 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
     return simulated
 
 
+@growing
 @kernel
-def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream):
+def ancestral(
+    velocities, own, n_particles, mean_own, pair_rate, stream, first, second, energy
+):
     """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
 
     Infinitely many particles (0) give McKean's tree: exact draws of the Kac equation.
     """
     inverse = 0.0 if n_particles == 0 else 1.0 / (n_particles - 1)
     reach = 1.0 if n_particles == 0 else pair_rate * (n_particles - 1)
-    first, second = np.empty(64, np.int64), np.empty(64, np.int64)
-    energy = np.empty(64)
+    start = stream.copy()
     simulated = 0
     for draw in range(velocities.size):
+        copy_state(stream, start)
         n, others, touched, left = 0, 0, 0, mean_own
         while True:
             # Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
@@ -109,7 +113,8 @@ def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream):
             if left < 0.0:
                 break
             if n == first.size:
-                first, second = grown(first), grown(second)
+                copy_state(start, stream)
+                return draw, simulated
             if uniform(stream) * total < 1.0:
                 i = 0
                 touched += 1
@@ -119,16 +124,13 @@ def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream):
                 i = 1 + index_below(others, stream)
                 inner = uniform(stream) * others_rate < 0.5 * pair_rate * others * (others - 1)
                 j = 1 + index_below(others - 1, stream)
-                j += j >= i
+                j += int64(j >= i)
             if not inner:
                 others += 1
                 j = others
             first[n], second[n] = i, j
             n += 1
-        energy = fill_initial_energies(energy, others + 1, stream)
-        for event in range(n - 1, -1, -1):
-            share(energy, first[event], second[event], stream)
-        velocities[draw] = signed_root(energy[0], stream)
+        velocities[draw] = signed_root(replay(energy, others + 1, first, second, n, stream), stream)
         own[draw] = touched
         simulated += n
-    return simulated
+    return velocities.size, simulated

@@ -13,7 +13,7 @@ import sys
 sys.path.insert(0, workflow.basedir)
 
 from kacsim import items, plan
-from kacsim.provenance import KERNEL_SOURCES, ROOT, source_hash
+from kacsim.provenance import ROOT, source_hash
 
 
 configfile: ROOT / "config" / "config.yaml"
@@ -22,7 +22,8 @@ configfile: ROOT / "config" / "config.yaml"
 # The interpreter that runs Snakemake, and this clone: the printed commands work from anywhere.
 KACSIM = f"PYTHONPATH={shlex.quote(str(ROOT))} {shlex.quote(sys.executable)} -m kacsim"
 FORMATS = ("png", "svg", "pdf")
-CONFIG_FILES = [ROOT / "config" / "config.yaml", *workflow.configfiles]
+# Messages name the last file that sets a key; those of the command line come last.
+CONFIG_FILES = sorted(workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml")
 
 try:
     the_plan = plan.Plan(config, CONFIG_FILES)
@@ -34,6 +35,7 @@ except plan.PlanError as error:
 wildcard_constraints:
     case="|".join(map(re.escape, the_plan.cases)),
     item="|".join(items.NAMES),
+    kernels="|".join(module.removesuffix(".py") for module in plan.KERNEL_MODULES),
 
 
 rule all:

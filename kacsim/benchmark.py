@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 
-from kacsim import kac
+from kacsim.checks import MEAN_ENERGY, RATE
 from kacsim.jit import kernel
 from kacsim.kac import bird, perfect, poisson
 from kacsim.plan import make_case
@@ -86,7 +86,7 @@ def _parameters(n_particles, algorithm="bird"):
         "algorithm": algorithm,
         "n_particles": n_particles,
         "time": TIME,
-        "collision_rate": kac.RATE,
+        "collision_rate": RATE,
     }
 
 
@@ -127,7 +127,7 @@ def _ancestral(repeats):
 def _perfect(repeats):
     """The epsilon-perfect sampler against the literal algorithm."""
     n_particles, tolerance = 50, 1e-6
-    energy = kac.MEAN_ENERGY * n_particles
+    energy = MEAN_ENERGY * n_particles
     stream = new_stream(1, "benchmark")
 
     def fast(n):

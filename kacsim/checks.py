@@ -103,12 +103,14 @@ def _stepped(algorithm, n_particles, time, time_step, rate):
     product = f"({rate:.4g} * {time_step!r} = {rate * time_step:.4g})"
     if rate * time_step > 1:
         family = "Nanbu-Babovsky" if algorithm == "nanbu_babovsky" else "Nanbu"
-        yield Problem("time_step", time_step, f"{family} needs collision_rate * time_step <= 1 {product}")
+        yield Problem(
+            "time_step", time_step, f"{family} needs collision_rate * time_step <= 1 {product}"
+        )
     elif algorithm == "nanbu_babovsky":
         pairs = math.ceil(rate * n_particles * time_step / 2)
         if 2 * pairs > n_particles:
-            sentence = f"Nanbu-Babovsky may need {pairs} disjoint pairs of {n_particles} particles; at most n_particles / 2"
-            yield Problem("time_step", time_step, sentence)
+            sentence = f"{pairs} disjoint pairs may be needed of {n_particles} particles"
+            yield Problem("time_step", time_step, f"{sentence}; at most n_particles / 2 exist")
 
 
 def kac_equilibrium(*, n_particles, tolerance, energy=None, **_):

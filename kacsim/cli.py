@@ -1,9 +1,4 @@
-"""The command line: parse, call, write. No science here.
-
-    python -m kacsim plan --config config/config.yaml
-    python -m kacsim sample kac --algorithm bird --engine forward --n-particles 50 --time 2 \\
-        --n-draws 100000 --n-replicates 10 --seed 1 --output bird.nc
-"""
+"""The command line: parse, call, write. No science here."""
 
 import argparse
 import json
@@ -55,8 +50,9 @@ def _parser():
     one.add_argument("--items", nargs="+", required=True)
     one.add_argument("--output", required=True)
     one.set_defaults(run=_report)
-    one = commands.add_parser("compile", help="compile all kernels into the kernel cache")
-    one.add_argument("--output", required=True, help="file that names the cache folder")
+    one = commands.add_parser("compile", help="compile a module's kernels into the kernel cache")
+    one.add_argument("module", choices=plan.KERNEL_MODULES)
+    one.add_argument("--output", required=True, help="file that gets the hash of the sources")
     one.set_defaults(run=_compile)
     one = commands.add_parser("benchmark", help="measure the kernels, as ratios in one run")
     one.add_argument("--repeats", type=int, default=5, help="runs whose median counts")
@@ -142,7 +138,9 @@ def _reduce(arguments):
     try:
         settings = json.loads(arguments.settings)
     except json.JSONDecodeError as error:
-        raise plan.PlanError(f"--settings = {arguments.settings!r}: is not JSON: {error}") from error
+        raise plan.PlanError(
+            f"--settings = {arguments.settings!r}: is not JSON: {error}"
+        ) from error
     from kacsim import items, store
 
     module = items.load(arguments.item)
@@ -172,15 +170,14 @@ def _report(arguments):
 
 
 def _compile(arguments):
-    from kacsim import jit, sampling, store
+    from kacsim import jit, provenance, sampling, store
 
-    sampling.compile_all()
-    store.replace_file(arguments.output, lambda name: Path(name).write_text(f"{jit.cache_folder()}\n"))
+    sampling.compile_module(arguments.module)
+    text = provenance.source_hash(*jit.kernel_sources(arguments.module)) + "\n"
+    store.replace_file(arguments.output, lambda name: Path(name).write_text(text))
 
 
 def _benchmark(arguments):
     from kacsim import benchmark
 
     benchmark.run(arguments.repeats)
-
-

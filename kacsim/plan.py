@@ -41,7 +41,7 @@ SAMPLE_SOURCES = (
     "variates.py",
     "sampling.py",
     "store.py",
-    "kac/__init__.py",
+    "kac/draws.py",
     "kac/model.py",
 )
 ALGORITHM_FILES = {
@@ -52,6 +52,7 @@ ALGORITHM_FILES = {
     "poisson": "kac/poisson.py",
     "poisson_printed": "kac/poisson.py",
 }
+KERNEL_MODULES = (*dict.fromkeys(ALGORITHM_FILES.values()), "kac/perfect.py")
 DEFAULTS = {"time_step": None, "collision_rate": RATE, "keep_above": None, "energy": None}
 
 
@@ -98,7 +99,7 @@ class Case:
         return shlex.join(words)
 
     def priority(self):
-        """Return a rank that starts the longest cases first: the estimated work, by its logarithm."""
+        """Return a rank that starts the longest cases first: the logarithm of their work."""
         p = self.parameters
         work = self.n_draws * self.n_replicates
         if self.sampler == "kac_equilibrium":
@@ -115,15 +116,29 @@ class Case:
         check = getattr(checks, self.sampler)
         return [*check(**self.parameters), *checks.amount(**size)]
 
+    @property
+    def kernel_module(self):
+        """Return the package's file that holds the sampler's kernels."""
+        return ALGORITHM_FILES.get(self.parameters.get("algorithm"), "kac/perfect.py")
+
+    def compiled(self):
+        """Return the file that stands for the sampler's compiled kernels."""
+        return f"results/kernels/{self.kernel_module.removesuffix('.py')}.txt"
+
     def sources(self):
         """Return the package's files that the draws depend on."""
-        return (*SAMPLE_SOURCES, ALGORITHM_FILES.get(self.parameters.get("algorithm"), "kac/perfect.py"))
+        return (*SAMPLE_SOURCES, self.kernel_module)
 
     def settings(self):
         """Return everything that determines the draws, as a JSON-ready dict."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
         known = {k: v for k, v in self.parameters.items() if v is not None}
         return {"sampler": self.sampler, **known, **size}
+
+
+def compile_sources(module):
+    """Return the package's files that the compiled kernels of a module depend on."""
+    return (*(source for source in SAMPLE_SOURCES if source != "store.py"), module)
 
 
 def reduce_sources(name):
@@ -215,7 +230,8 @@ class Plan:
         for name in items.NAMES:
             cases = items.load(name).cases(self.settings[name])
             self.cases_of[name] = list({case.id: case for case in cases}.values())
-            problems += self._case_problems(name)
+            if "items" not in self.settings[name]:  # else the used items have reported them
+                problems += self._case_problems(name)
         self._refuse(problems)
         self.cases = {case.id: case for cases in self.cases_of.values() for case in cases}
 
@@ -250,8 +266,10 @@ class Plan:
 
     def _refuse(self, problems):
         if problems:
-            lines = [f"{self._file_of(path)}: {describe(path)}{_shown(value)}: {sentence}"
-                     for path, value, sentence in problems]
+            lines = [
+                f"{self._file_of(path)}: {describe(path)}{_shown(value)}: {sentence}"
+                for path, value, sentence in problems
+            ]
             raise PlanError("\n".join(lines))
 
     def _file_of(self, path):

@@ -41,10 +41,10 @@ PANEL_WIDTH, PANEL_HEIGHT = 3.5, 2.7
 SINGLE_WIDTH = 5.0
 
 
-def panels(rows, columns, *, share_y=False, height=None, projection=None):
-    """Return (figure, flat list of axes) in the project's style."""
+def panels(rows, columns, *, share_y=False, height=None, width=None, projection=None):
+    """Return (figure, flat list of axes) in the project's style; sizes in inches."""
     pyplot.rcParams.update(STYLE)
-    width = SINGLE_WIDTH if columns == 1 else PANEL_WIDTH * columns
+    width = width or (SINGLE_WIDTH if columns == 1 else PANEL_WIDTH * columns)
     keywords = {"projection": projection} if projection else None
     figure, axes = pyplot.subplots(
         rows,
@@ -102,6 +102,14 @@ def velocity_axis(axis):
 def density_axis(axis):
     """Name the density axis."""
     axis.set_ylabel("density")
+
+
+def legends_above(axes, share=0.4):
+    """Put the legends above the data, on room made for them as a share of the common axis."""
+    low, high = axes[0].get_ylim()
+    for axis in axes:
+        axis.set_ylim(low, low + (high - low) / (1.0 - share))
+        axis.legend(loc="upper center", frameon=False)
 
 
 def plain_log(axis):

@@ -10,9 +10,6 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 ROOT = PACKAGE.parent
 
-# Every source that holds a kernel; compiled kernels are kept under the hash of these.
-KERNEL_SOURCES = ("jit.py", "streams.py", "variates.py", "sampling.py", "kac")
-
 
 def source_hash(*paths):
     """Return 16 hex digits that change when one of the sources does.

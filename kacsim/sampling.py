@@ -7,13 +7,12 @@ buffer is added to the sums, and is filled again.
 import math
 
 import numpy as np
-import xarray as xr
 from numba import int64
 
-from kacsim import kac
-from kacsim.checks import ENGINES, MEAN_ENERGY, STEPPED
+from kacsim.checks import ALGORITHMS, ENGINES, MEAN_ENERGY, STEPPED
 from kacsim.jit import kernel
-from kacsim.kac import perfect
+from kacsim.kac import draws, perfect
+from kacsim.plan import make_case
 from kacsim.statistics.histogram import FINE_BINS, FINE_WIDTH, LIMIT, fine_edges
 from kacsim.store import described
 from kacsim.streams import new_stream
@@ -55,7 +54,7 @@ def accumulate(values, counts, sums, kept, n_kept, keep_above):
 
 
 def run(case, progress=None):
-    """Return the dataset of one case.
+    """Return the samples of one case.
 
     Parameters
     ----------
@@ -64,13 +63,13 @@ def run(case, progress=None):
 
     Returns
     -------
-    xarray.Dataset, see the functions of `SAMPLERS`
+    dict name -> variable of kacsim.store.described, see the functions of `SAMPLERS`
     """
     return SAMPLERS[case.sampler](case, progress or (lambda done: None))
 
 
 def _velocity_sums(case, fill, progress):
-    """Stream all replicates through `fill(velocities, own, stream)`; return the dataset."""
+    """Stream all replicates through `fill(velocities, replicate, stream)`; return variables."""
     p = case.parameters
     counts = np.zeros((case.n_replicates, FINE_BINS + 2), np.int64)
     sums = np.zeros((case.n_replicates, len(ORDERS)))
@@ -89,23 +88,15 @@ def _velocity_sums(case, fill, progress):
             done += velocities.size
             progress(done)
     sums /= case.n_draws
-    replicate_dim = ("replicate",)
-    dataset = xr.Dataset(
-        {
-            "counts": described(
-                counts, (*replicate_dim, "bin"), "draws per bin, first and last: tails"
-            ),
-            "moment": described(sums, (*replicate_dim, "order"), "mean of v_1 to the power"),
-            "kept_velocity": described(
-                kept[:n_kept], ("kept",), "first values of v_1 above the keeping threshold"
-            ),
-        },
-        coords={
-            "order": described(np.array(ORDERS), ("order",), "power"),
-            "edge": described(fine_edges(), ("edge",), "bin edges of v_1"),
-        },
-    )
-    return dataset
+    return {
+        "counts": described(counts, ("replicate", "bin"), "draws per bin, first and last: tails"),
+        "moment": described(sums, ("replicate", "order"), "mean of v_1 to the power"),
+        "kept_velocity": described(
+            kept[:n_kept], ("kept",), "first values of v_1 above the keeping threshold"
+        ),
+        "order": described(ORDERS, ("order",), "power"),
+        "edge": described(fine_edges(), ("edge",), "bin edges of v_1"),
+    }
 
 
 def sample_kac(case, progress):
@@ -113,10 +104,10 @@ def sample_kac(case, progress):
 
     Returns
     -------
-    xarray.Dataset: counts[replicate, bin], moment[replicate, order], kept_velocity[kept],
+    dict of counts[replicate, bin], moment[replicate, order], kept_velocity[kept],
     collisions and own_collisions[replicate] (means per draw), own_variance[replicate]
     """
-    draw_kernel, arguments = kac.kernel_of(case.parameters)
+    draw_kernel, arguments = draws.kernel_of(case.parameters)
     collisions = np.zeros(case.n_replicates)
     own_sums = np.zeros((2, case.n_replicates))
 
@@ -125,17 +116,16 @@ def sample_kac(case, progress):
         collisions[replicate] += draw_kernel(velocities, own, *arguments, stream)
         own_sums[:, replicate] += own.sum(), (own * own).sum()
 
-    dataset = _velocity_sums(case, fill, progress)
+    variables = _velocity_sums(case, fill, progress)
     mean, square = own_sums / case.n_draws
-    return dataset.assign(
-        collisions=described(
-            collisions / case.n_draws, ("replicate",), "collisions simulated per draw"
+    dims = ("replicate",)
+    return variables | {
+        "collisions": described(collisions / case.n_draws, dims, "collisions simulated per draw"),
+        "own_collisions": described(mean, dims, "mean collisions of particle 1"),
+        "own_variance": described(
+            square - mean**2, dims, "variance of the collisions of particle 1"
         ),
-        own_collisions=described(mean, ("replicate",), "mean collisions of particle 1"),
-        own_variance=described(
-            square - mean**2, ("replicate",), "variance of the collisions of particle 1"
-        ),
-    )
+    }
 
 
 def sample_kac_equilibrium(case, progress):
@@ -143,7 +133,7 @@ def sample_kac_equilibrium(case, progress):
 
     Returns
     -------
-    xarray.Dataset: as `sample_kac`, with coupling_time[draw] in place of collisions
+    dict of as `sample_kac`, with coupling_time[draw] in place of collisions
     """
     p = case.parameters
     n_particles = p["n_particles"]
@@ -166,18 +156,18 @@ def sample_kac_equilibrium(case, progress):
         kept[filled : filled + room] = times[:room]
         filled += room
 
-    dataset = _velocity_sums(case, fill, progress)
+    variables = _velocity_sums(case, fill, progress)
     mean, square = sums / case.n_draws
-    per_replicate = ("replicate",)
-    return dataset.assign(
-        coupling_time=described(kept, ("draw",), "coupling time of the first draws", "steps"),
-        coupling_mean=described(mean, per_replicate, "mean coupling time", "steps"),
-        coupling_variance=described(
-            square - mean**2, per_replicate, "variance of the coupling time", "steps2"
+    dims, units = ("replicate",), "steps"
+    return variables | {
+        "coupling_time": described(kept, ("draw",), "coupling time of the first draws", units),
+        "coupling_mean": described(mean, dims, "mean coupling time", units),
+        "coupling_variance": described(
+            square - mean**2, dims, "variance of the coupling time", "steps2"
         ),
-        coupling_min=described(lowest, per_replicate, "smallest coupling time", "steps"),
-        coupling_max=described(highest, per_replicate, "largest coupling time", "steps"),
-    )
+        "coupling_min": described(lowest, dims, "smallest coupling time", units),
+        "coupling_max": described(highest, dims, "largest coupling time", units),
+    }
 
 
 def sample_kac_corners(case, progress):
@@ -185,7 +175,7 @@ def sample_kac_corners(case, progress):
 
     Returns
     -------
-    xarray.Dataset: corner[step, corner, particle] of the first run from its coupling time -n to
+    dict of corner[step, corner, particle] of the first run from its coupling time -n to
     0, its inputs first, second, squared_sine[step]; for all runs diameter[run, step], forward
     from step 0, nan after coupling, and same_pair[run, step]
     """
@@ -201,20 +191,18 @@ def sample_kac_corners(case, progress):
         diameter[k, : one["diameter"].size] = one["diameter"]
         same[k, : one["same"].size] = one["same"]
     head = runs[0]
-    return xr.Dataset(
-        {
-            "corner": described(
-                head["corner"], ("time", "corner_index", "particle"), "corner points' velocities"
-            ),
-            "first": described(head["first"], ("step",), "index p of the pair"),
-            "second": described(head["second"], ("step",), "index q of the pair"),
-            "squared_sine": described(head["part"], ("step",), "sin(theta) squared"),
-            "diameter": described(diameter, ("run", "after"), "largest distance D after a step"),
-            "same_pair": described(
-                same.astype(np.int8), ("run", "after"), "1 if the step repeats the pair before it"
-            ),
-        }
-    )
+    return {
+        "corner": described(
+            head["corner"], ("time", "corner_index", "particle"), "corner points' velocities"
+        ),
+        "first": described(head["first"], ("step",), "index p of the pair"),
+        "second": described(head["second"], ("step",), "index q of the pair"),
+        "squared_sine": described(head["part"], ("step",), "sin(theta) squared"),
+        "diameter": described(diameter, ("run", "after"), "largest distance D after a step"),
+        "same_pair": described(
+            same.astype(np.int8), ("run", "after"), "1 if the step repeats the pair before it"
+        ),
+    }
 
 
 def _one_run(n, energy, tolerance, case, index):
@@ -245,15 +233,21 @@ SAMPLERS = {
 }
 
 
-def compile_all():
-    """Compile every kernel that the samplers call, into the kernel cache."""
-    from kacsim.plan import make_case
+def compile_module(module):
+    """Compile every kernel of a module that the samplers call, into the kernel cache.
 
+    Parameters
+    ----------
+    module : one of kacsim.plan.KERNEL_MODULES
+    """
     size = {"n_draws": 2, "n_replicates": 1, "seed": 0}
-    for algorithm in kac.ALGORITHMS:
+    for algorithm in ALGORITHMS:
         step = 0.5 if algorithm in STEPPED else None
         for engine in ENGINES:
             common = {"n_particles": 4, "time": 1.0, "time_step": step, "engine": engine}
-            run(make_case("kac", algorithm=algorithm, **common, **size))
-    for sampler in ("kac_equilibrium", "kac_corners"):
-        run(make_case(sampler, n_particles=3, tolerance=0.1, **size))
+            case = make_case("kac", algorithm=algorithm, **common, **size)
+            if case.kernel_module == module:
+                run(case)
+    if module == "kac/perfect.py":
+        for sampler in ("kac_equilibrium", "kac_corners"):
+            run(make_case(sampler, n_particles=3, tolerance=0.1, **size))

@@ -2,6 +2,7 @@
 
 import copy
 import difflib
+import math
 from pathlib import Path
 
 import jsonschema
@@ -64,7 +65,16 @@ def _problems(error):
             if key not in known:
                 yield (*path, key), MISSING, _unknown(key, known)
         return
-    yield path, error.instance, f"must be {_allowed(error)}"
+    yield path, error.instance, f"must be {_allowed(error)}{_misread(error.instance)}"
+
+
+def _misread(value):
+    """Return a hint for a number that YAML takes for text, such as 1e-6 without a point."""
+    try:
+        number = float(value) if isinstance(value, str) else math.nan
+    except ValueError:
+        return ""
+    return f"; YAML reads {value} as text, write {number:.1e}" if math.isfinite(number) else ""
 
 
 def _unknown(key, known):

@@ -9,8 +9,8 @@ import os
 import tempfile
 from pathlib import Path
 
+import netCDF4
 import numpy as np
-import xarray as xr
 
 from kacsim import __version__, provenance
 
@@ -51,36 +51,49 @@ def _umask():
     return mask
 
 
-def write(dataset, path, *, title, settings):
+def write(content, path, *, title, settings):
     """Write a dataset with its provenance.
 
     Parameters
     ----------
-    dataset : xarray.Dataset, every variable with ``long_name`` and ``units``
+    content : dict name -> variable of `described`, or xarray.Dataset
     path : file to create or replace
     title : one sentence that says what the file holds
     settings : dict, everything the content was made from; stored as JSON
     """
-    attributes = {k: v if isinstance(v, (str, int, float)) else json.dumps(v, sort_keys=True)
-                  for k, v in dataset.attrs.items()}
-    complete = dataset.drop_attrs(deep=False).assign_attrs(
-        attributes,
-        Conventions="CF-1.11",
-        title=title,
-        source=f"kacsim {__version__}, commit {provenance.commit()}, {provenance.versions()}",
-        settings=json.dumps(settings, sort_keys=True),
-    )
-    encoding = {name: _encoding(variable) for name, variable in complete.variables.items()}
-    replace_file(
-        path, lambda name: complete.to_netcdf(name, engine="netcdf4", encoding=encoding)
-    )
+    variables, attributes = content, {}
+    if hasattr(content, "variables"):
+        variables = {name: (v.dims, v.values, v.attrs) for name, v in content.variables.items()}
+        attributes = {name: _plain(value) for name, value in content.attrs.items()}
+    attributes |= {
+        "Conventions": "CF-1.11",
+        "title": title,
+        "source": f"kacsim {__version__}, commit {provenance.commit()}, {provenance.versions()}",
+        "settings": json.dumps(settings, sort_keys=True),
+    }
+    replace_file(path, lambda name: _write_netcdf(name, variables, attributes))
 
 
-def _encoding(variable):
-    # Coordinates and counts have no missing values; text cannot be compressed.
-    plain = {"_FillValue": None} if variable.dtype.kind in "fiub" else {}
-    large = variable.dtype.kind in "fi" and variable.size > 1000
-    return plain | ({"zlib": True, "complevel": 4, "shuffle": True} if large else {})
+def _plain(value):
+    return value if isinstance(value, (str, int, float)) else json.dumps(value, sort_keys=True)
+
+
+def _write_netcdf(path, variables, attributes):
+    """Write variables (dims, values, attributes) and global attributes to a new file."""
+    with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
+        file.setncatts(attributes)
+        for name, (dims, values, described_as) in variables.items():
+            values = np.asarray(values)
+            for dim, size in zip(dims, values.shape, strict=True):
+                if dim not in file.dimensions:
+                    file.createDimension(dim, size)
+            text = values.dtype.kind in "OU"
+            kind = str if text else values.dtype
+            # Text cannot be compressed, and small arrays need not be.
+            packed = {} if text or values.size <= 1000 else {"zlib": True, "shuffle": True}
+            variable = file.createVariable(name, kind, dims, fill_value=False, **packed)
+            variable.setncatts(described_as)
+            variable[...] = values.astype(object) if text else values
 
 
 def read(path):
@@ -91,6 +104,8 @@ def read(path):
     StoreError
         Names the file and the command that makes it again.
     """
+    import xarray as xr  # half a second to import, which samplers should not pay
+
     path = Path(path)
     try:
         with xr.open_dataset(path, engine="netcdf4") as dataset:
@@ -134,5 +149,5 @@ def check_writable(path):
 
 
 def described(values, dims, long_name, units="1"):
-    """Return a variable with the two attributes that every variable has."""
-    return xr.Variable(dims, np.asarray(values), {"long_name": long_name, "units": units})
+    """Return (dims, values, attributes), a variable with the attributes that every one has."""
+    return dims, np.asarray(values), {"long_name": long_name, "units": units}

@@ -53,5 +53,6 @@ def reduced(name, samples, settings):
     xarray.Dataset with attributes ``settings`` and ``published`` (claim id -> value)
     """
     dataset = load(name).reduce(samples, settings)
-    values = {key: entry["value"] for key, entry in published().items() if entry["item"] == name}
+    shown = {k: e for k, e in published().items() if name in (e["item"], *e.get("also", ()))}
+    values = {key: entry["value"] for key, entry in shown.items()}
     return dataset.assign_attrs(settings=settings, published=values)

@@ -28,12 +28,17 @@ def octant(axis, radius):
         ring = radius * np.cos(fixed)
         style = {"color": "0.8", "lw": 0.5}
         axis.plot(ring * cos, ring * sin, level, **style)
-        axis.plot(
-            radius * np.cos(fixed) * cos, radius * np.sin(fixed) * cos, radius * sin, **style
-        )
-    for name, setter in zip("123", (axis.set_xlabel, axis.set_ylabel, axis.set_zlabel), strict=True):
-        setter(f"$v_{name}$", labelpad=-6)
+        axis.plot(radius * np.cos(fixed) * cos, radius * np.sin(fixed) * cos, radius * sin, **style)
+    for name, setter in zip(
+        "123", (axis.set_xlabel, axis.set_ylabel, axis.set_zlabel), strict=True
+    ):
+        setter(f"$v_{name}$", labelpad=-8)
     axis.tick_params(labelsize=6, pad=-3)
+    axis.set(xticks=[0, radius], yticks=[0, radius], zticks=[0, radius])
+    for plane in (axis.xaxis, axis.yaxis, axis.zaxis):
+        plane.set_pane_color("white")
+        plane.set_ticklabels(["0", "$\\sqrt{E}$"])
+    axis.grid(visible=False)
     axis.view_init(elev=25, azim=35)
     axis.set_box_aspect((1, 1, 1))
 

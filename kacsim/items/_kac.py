@@ -11,7 +11,8 @@ def velocity_case(settings, algorithm, n_particles, time_step=None, **others):
     """Return the case of one algorithm with the item's time, engine and size."""
     step = time_step if algorithm in STEPPED else None
     size = {key: settings[key] for key in ("n_draws", "n_replicates", "seed")}
-    common = {"engine": settings["engine"], "time": settings["time"], "time_step": step}
+    engine = settings.get("engine", "ancestral")
+    common = {"engine": engine, "time": settings["time"], "time_step": step}
     return make_case(
         "kac", algorithm=algorithm, n_particles=n_particles, **(common | size | others)
     )

@@ -14,6 +14,7 @@ class _Lazy:
 np = _Lazy("numpy")
 xr = _Lazy("xarray")
 kac = _Lazy("kacsim.kac")
+ancestors = _Lazy("kacsim.kac.ancestors")
 exact = _Lazy("kacsim.kac.exact")
 moments = _Lazy("kacsim.kac.moments")
 estimate = _Lazy("kacsim.statistics.estimate")

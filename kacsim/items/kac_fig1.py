@@ -1,4 +1,4 @@
-"""Fig. 1 of the Kac paper: histograms of v_1 under Nanbu's algorithm with a small and a large step."""
+"""Fig. 1 of the Kac paper: histograms of v_1 under Nanbu's algorithm, small and large step."""
 
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, plotting, store, verdict
@@ -83,6 +83,6 @@ def draw(dataset):
         plotting.solution(axis, dataset.attrs["settings"]["time"])
         axis.set_title(f"$\\Delta t$ = {step:g}")
         plotting.velocity_axis(axis)
-        axis.legend()
+    plotting.legends_above(axes)
     plotting.density_axis(axes[0])
     return figure

@@ -33,6 +33,6 @@ def draw(dataset):
         plotting.solution(axis, dataset.attrs["settings"]["time"])
         axis.set_title(plotting.NAMES[algorithm])
         plotting.velocity_axis(axis)
-        axis.legend()
+    plotting.legends_above(axes, share=0.25)
     plotting.density_axis(axes[0])
     return figure

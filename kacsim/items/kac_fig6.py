@@ -31,7 +31,9 @@ def reduce(samples, settings):
             ),
             "n_other": described((valid & ~repeated).sum(), (), "steps with another pair"),
             "n_other_kept": described(
-                (valid & ~repeated & (change > -rounding)).sum(), (), "such steps that left D as it was"
+                (valid & ~repeated & (change > -rounding)).sum(),
+                (),
+                "such steps that left D as it was",
             ),
         },
         coords={"time": ("time", np.arange(corner.shape[0]) - (corner.shape[0] - 1))},

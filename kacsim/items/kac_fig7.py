@@ -46,10 +46,12 @@ def draw(dataset):
     figure, (axis,) = _corners.sphere_axes(1)
     _corners.octant(axis, float(dataset.radius))
     _corners.draw_image(axis, dataset.corner.values, plotting.COLOURS[0], "image of the octant")
-    for before, after in zip(dataset.before.values, dataset.after.values, strict=True):
-        axis.plot(*np.stack([before, after]).T, color="0.4", ls=":", lw=1)
-        axis.scatter(*before, color=plotting.COLOURS[1], marker="s", s=24, depthshade=False)
-        axis.scatter(*after, color=plotting.COLOURS[2], marker="^", s=30, depthshade=False)
+    before, after = dataset.before.values, dataset.after.values
+    for ends in np.stack([before, after], axis=1):
+        axis.plot(*ends.T, color="0.4", ls=":", lw=1)
+    style = {"depthshade": False, "zorder": 5}
+    axis.scatter(*before.T, color=plotting.COLOURS[1], marker="s", s=24, label="points", **style)
+    axis.scatter(*after.T, color=plotting.COLOURS[2], marker="^", s=30, label="images", **style)
     i, j = dataset.pair.values
     axis.set_title(f"pair ({i}, {j}), $\\theta$ = {float(dataset.angle):.0f}°")
     axis.legend(loc="upper left")

@@ -3,7 +3,7 @@
 import math
 
 from kacsim.items import _kac
-from kacsim.items._lazy import estimate, exact, histogram, np, plotting, store, verdict, xr
+from kacsim.items._lazy import exact, histogram, np, plotting, store, verdict, xr
 from kacsim.plan import make_case
 
 ENERGIES = ("three_halves", "printed")
@@ -65,7 +65,7 @@ def _energy(sample, case, expected, width):
 
 
 def _coupling(sample, n_draws):
-    """Return mean, spread and range of the coupling time, with the range's spread over replicates."""
+    """Return mean, spread and range of the coupling time, and how far the range varies."""
     described = store.described
     variance = sample["coupling_variance"].mean() + sample["coupling_mean"].var()
     low, high = sample["coupling_min"].values, sample["coupling_max"].values
@@ -76,7 +76,10 @@ def _coupling(sample, n_draws):
         "coupling_min": (low.min(), "smallest coupling time"),
         "coupling_max": (high.max(), "largest coupling time"),
         "coupling_min_spread": (low.std(ddof=min(1, low.size - 1)), "spread of replicates' minima"),
-        "coupling_max_spread": (high.std(ddof=min(1, low.size - 1)), "spread of replicates' maxima"),
+        "coupling_max_spread": (
+            high.std(ddof=min(1, low.size - 1)),
+            "spread of replicates' maxima",
+        ),
     }
     return {name: described(value, (), text, "steps") for name, (value, text) in numbers.items()}
 
@@ -143,10 +146,11 @@ def draw(dataset):
     plotting.solution(axes[0], math.inf, "eq. (9)")
     plotting.velocity_axis(axes[0])
     plotting.density_axis(axes[0])
-    axes[0].set_ylim(0, 0.45)
-    axes[0].legend(loc="upper right")
+    plotting.legends_above(axes[:1], share=0.25)
     times = dataset.coupling_time.values
-    axes[1].hist(times, bins=60, density=True, color=plotting.COLOURS[0], alpha=0.6, label="this run")
+    axes[1].hist(
+        times, bins=60, density=True, color=plotting.COLOURS[0], alpha=0.6, label="this run"
+    )
     published = dataset.attrs["published"]
     axes[1].axvline(
         published["kac_fig9_coupling_mean"], color=plotting.COLOURS[1], label="published mean"

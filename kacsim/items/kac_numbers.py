@@ -11,6 +11,7 @@ USES = (
     "kac_fig6",
     "kac_fig9",
     "kac_bias",
+    "kac_tails",
 )
 TEXTS = ("claim", "kind", "verdict", "evidence")
 NUMBERS = {
@@ -43,7 +44,14 @@ def reduce(samples, settings):
     rows = verdict.judge(findings, published)
     table = {key: [] for key in (*TEXTS, *NUMBERS)}
     for finding, row in zip(findings, rows, strict=True):
-        for key in ("claim", "evidence", "measured", "standard_error", "published_error", "corrected"):
+        for key in (
+            "claim",
+            "evidence",
+            "measured",
+            "standard_error",
+            "published_error",
+            "corrected",
+        ):
             table[key].append(getattr(finding, key))
         for key in ("kind", "verdict", "z", "p_value", "adjusted_p_value"):
             table[key].append(row[key])
@@ -59,7 +67,7 @@ def reduce(samples, settings):
 
 def draw(dataset):
     """Draw the statistic of every claim, symbols by verdict."""
-    figure, (axis,) = plotting.panels(1, 1, height=0.26 * dataset.sizes["row"] + 0.8)
+    figure, (axis,) = plotting.panels(1, 1, width=7.0, height=0.22 * dataset.sizes["row"] + 1)
     limit = 30.0
     row = np.arange(dataset.sizes["row"])
     z = np.clip(np.nan_to_num(dataset.z.values, posinf=limit, neginf=-limit), -limit, limit)
@@ -72,5 +80,5 @@ def draw(dataset):
     axis.invert_yaxis()
     axis.set_xlim(-limit - 1, limit + 1)
     axis.set_xlabel(f"z = (measured $-$ published) / error, cut at $\\pm${limit:g}; grey: |z| < 4")
-    axis.legend(loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=3)
+    figure.legend(loc="outside upper center", ncols=3, frameon=False)
     return figure

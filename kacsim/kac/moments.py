@@ -51,8 +51,8 @@ def _limit(n):
 
 def _bird(n, collisions):
     """Return the moment after a fixed number of collisions of uniform pairs."""
-    ratio = (n + 2.0) / (2.0 * n * (n - 1.0))
-    return INITIAL_SQUARE + _limit(n) * -math.expm1(collisions * math.log1p(-ratio))
+    ratio = 1.0 - (n + 2.0) / (2.0 * n * (n - 1.0))
+    return INITIAL_SQUARE + _limit(n) * (1.0 - ratio**collisions)
 
 
 def _poisson_printed(n, mean_own):

@@ -72,14 +72,18 @@ def ancestral(velocities, own, n_particles, steps, mean_pairs, stream, first, se
     ancestors' partners are revealed one after another.
     """
     taken = np.zeros(n_particles, np.bool_)
+    scales = touch_scales(n_particles, mean_pairs)
     start = stream.copy()
     simulated = 0
     for draw in range(velocities.size):
         copy_state(stream, start)
         n, members, touched, left = 0, 1, 0, steps
         while True:
-            spared_few, spared_more = spared_chances(members, n_particles, mean_pairs)
-            scale = gap_scale(1.0 - spared_few - spared_more)
+            scale = (
+                scales[members]
+                if members < scales.size
+                else touch_scale(members, n_particles, mean_pairs)
+            )
             left -= failures_before_success(scale, stream) + 1
             if left < 0:
                 break
@@ -106,12 +110,21 @@ def spared(members, n_particles, pairs):
 
 
 @inlined
-def spared_chances(members, n_particles, mean_pairs):
-    """Return the joint chances (fewer pairs, more pairs) of a step that spares all members."""
+def touch_scale(members, n_particles, mean_pairs):
+    """Return the `gap_scale` of the chance that a step touches at least one ancestor."""
     whole = math.floor(mean_pairs)
     more = mean_pairs - whole
-    few = (1.0 - more) * spared(members, n_particles, whole)
-    return few, more * spared(members, n_particles, whole + 1)
+    few = spared(members, n_particles, whole)
+    return gap_scale(1.0 - few + more * (few - spared(members, n_particles, whole + 1)))
+
+
+@inlined
+def touch_scales(n_particles, mean_pairs):
+    """Return `touch_scale` for 0..255 members (a product over the members saved per step)."""
+    scales = np.empty(min(n_particles + 1, 256))
+    for members in range(scales.size):
+        scales[members] = touch_scale(members, n_particles, mean_pairs)
+    return scales
 
 
 @inlined

@@ -91,9 +91,7 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
 
 @growing
 @kernel
-def ancestral(
-    velocities, own, n_particles, mean_own, pair_rate, stream, first, second, energy
-):
+def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream, first, second, energy):
     """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
 
     Infinitely many particles (0) give McKean's tree: exact draws of the Kac equation.

@@ -1,7 +1,6 @@
 """Bins, the total variation norm over them, and its noise floor (Kac paper, eq. 11)."""
 
 import numpy as np
-from scipy import special
 
 # Samplers keep counts at this width out to +-LIMIT; every wider bin is a whole number of them.
 FINE_WIDTH = 0.05
@@ -97,6 +96,8 @@ def chi_squared(counts, expected, least=10.0):
     expected : float64[bins], probabilities
     least : smallest expected count of a bin after merging
     """
+    from scipy import special
+
     counts, mean = np.asarray(counts, dtype=float), np.asarray(expected) * np.sum(counts)
     groups = np.minimum(np.cumsum(mean) // least, mean.sum() // least - 1).astype(int)
     observed = np.bincount(groups, counts)

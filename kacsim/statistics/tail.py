@@ -23,7 +23,9 @@ def counts_beyond(counts, threshold, *, both_sides=False):
     edges = fine_edges()
     place = int(np.argmin(np.abs(edges - threshold)))
     if abs(edges[place] - threshold) > 1e-9:
-        raise ValueError(f"threshold = {threshold!r}: must be a multiple of {FINE_WIDTH} up to {edges[-1]}")
+        raise ValueError(
+            f"threshold = {threshold!r}: must be a multiple of {FINE_WIDTH} up to {edges[-1]}"
+        )
     counts = np.asarray(counts)
     above = int(counts[place + 1 :].sum())
     return above + int(counts[: counts.size - place - 1].sum()) if both_sides else above

@@ -5,7 +5,8 @@ rule reduce:
     """Reduce the samples of one item to values with standard errors and verdicts."""
     input:
         lambda wildcards: [
-            f"results/samples/{case.id}.nc" for case in the_plan.cases_of[wildcards.item]
+            f"results/samples/{case.id}.nc"
+            for case in the_plan.cases_of[wildcards.item]
         ],
     output:
         "results/datasets/{item}.nc",

@@ -1,38 +1,39 @@
 # Stage 1: cases become samples.
 
 
-rule compile_kernels:
-    """Compile all kernels once, before parallel jobs would each compile them."""
+rule compile:
+    """Compile the kernels of one module once, before parallel jobs would each compile them."""
     output:
-        "results/kernels.txt",
+        "results/kernels/{kernels}.txt",
     log:
-        "logs/compile_kernels.log",
+        "logs/compile/{kernels}.log",
     benchmark:
-        "benchmarks/compile_kernels.tsv"
+        "benchmarks/compile/{kernels}.tsv"
     threads: 1
+    priority: 1000
     resources:
         mem_mb=800,
         runtime=10,
     params:
-        code=source_hash(*KERNEL_SOURCES),
+        code=lambda wildcards: source_hash(*plan.compile_sources(f"{wildcards.kernels}.py")),
     message:
-        "Compiling the kernels"
+        "Compiling the kernels of {wildcards.kernels}"
     shell:
-        "{KACSIM} compile --output {output} > {log} 2>&1"
+        "{KACSIM} compile {wildcards.kernels}.py --output {output} > {log} 2>&1"
 
 
 rule sample:
     """Draw one case: one algorithm, one set of parameters, all its replicates."""
     input:
-        kernels=ancient(rules.compile_kernels.output),
+        kernels=lambda wildcards: the_plan.cases[wildcards.case].compiled(),
     output:
         "results/samples/{case}.nc",
     log:
         "logs/sample/{case}.log",
     benchmark:
         "benchmarks/sample/{case}.tsv"
-    threads: 1
     priority: lambda wildcards: the_plan.cases[wildcards.case].priority()
+    threads: 1
     resources:
         mem_mb=400,
         runtime=60,

@@ -1,0 +1,132 @@
+"""Study: coupling time of the epsilon-perfect sampler against N and epsilon."""
+
+import math
+
+from kacsim.checks import MEAN_ENERGY
+from kacsim.items._lazy import np, plotting, store, xr
+from kacsim.plan import make_case
+
+NUMBERS = ("mean", "error", "spread", "least", "most")
+
+
+def _case(settings, n_particles, tolerance):
+    keys = ("n_draws", "n_replicates", "seed")
+    common = {key: settings[key] for key in keys}
+    return make_case("kac_equilibrium", n_particles=n_particles, tolerance=tolerance, **common)
+
+
+def _grids(settings):
+    by_n = [_case(settings, n, settings["fixed_tolerance"]) for n in settings["n_particles"]]
+    fixed = settings["fixed_n_particles"]
+    return by_n, [_case(settings, fixed, tolerance) for tolerance in settings["tolerance"]]
+
+
+def cases(settings):
+    """Return the cases against N and those against epsilon."""
+    by_n, by_tolerance = _grids(settings)
+    return [*by_n, *by_tolerance]
+
+
+def contraction_rate(n_particles):
+    """Return by how much E sum (x_j - y_j)**2 of two energy vectors falls per step, relatively.
+
+    A step replaces (d_p, d_q) by (a, 1 - a)(d_p + d_q) with E a**2 = 3/8; averaged over pairs,
+    with sum d = 0, the square sum falls by the share (N + 2) / (2 N (N - 1)).
+    """
+    return (n_particles + 2.0) / (2.0 * n_particles * (n_particles - 1.0))
+
+
+def predicted_steps(n_particles, tolerance):
+    """Return the steps after which the mean squared distance reaches tolerance**2.
+
+    The distance of energies stands for that of velocities (D**2 ~ sum d**2 / (4 x), x ~ E/N),
+    and the mean for the typical value; by Jensen's inequality the slope in log(1/tolerance)
+    bounds that of the true coupling time from above.
+    """
+    energy = MEAN_ENERGY * n_particles
+    start = n_particles * energy / 2.0  # two corners: d = +-E, x = E/N
+    return math.log(start / tolerance**2) / -math.log1p(-contraction_rate(n_particles))
+
+
+def reduce(samples, settings):
+    """Return mean, error, spread and range of the coupling times, with predictions."""
+    described, variables = store.described, {}
+    for prefix, grid, dim in zip(
+        ("n_", "tolerance_"), _grids(settings), ("n_particles", "tolerance"), strict=True
+    ):
+        table = np.array([_summary(samples[case.id], case) for case in grid])
+        for k, name in enumerate(NUMBERS):
+            variables[prefix + name] = described(table[:, k], (dim,), name, "steps")
+        variables[prefix + "predicted"] = described(
+            [predicted_steps(c.parameters["n_particles"], c.parameters["tolerance"]) for c in grid],
+            (dim,),
+            "steps until the mean squared distance reaches epsilon**2",
+            "steps",
+        )
+    return xr.Dataset(
+        variables | _slope(variables, settings),
+        coords={"n_particles": settings["n_particles"], "tolerance": settings["tolerance"]},
+    )
+
+
+def _summary(sample, case):
+    n_draws = case.n_draws * case.n_replicates
+    variance = float(sample["coupling_variance"].mean() + sample["coupling_mean"].var())
+    mean, error = float(sample["coupling_mean"].mean()), math.sqrt(variance / n_draws)
+    extremes = int(sample["coupling_min"].min()), int(sample["coupling_max"].max())
+    return (mean, error, math.sqrt(variance), *extremes)
+
+
+def _slope(variables, settings):
+    """Return variables: steps per factor e of 1/epsilon, with standard error and bound."""
+    tolerances = np.array(settings["tolerance"])
+    ends = np.argmin(tolerances), np.argmax(tolerances)
+    log = math.log(tolerances.max() / tolerances.min())
+    small, large = (variables["tolerance_mean"][1][k] for k in ends)
+    errors = [variables["tolerance_error"][1][k] for k in ends]
+    bound = 2.0 / -math.log1p(-contraction_rate(settings["fixed_n_particles"]))
+    numbers = {
+        "slope": ((small - large) / log, "steps per factor e of 1/epsilon"),
+        "slope_error": (math.hypot(*errors) / log, "standard error of the slope"),
+        "slope_bound": (bound, "upper bound from the contraction rate"),
+    }
+    return {name: store.described(value, (), text) for name, (value, text) in numbers.items()}
+
+
+def draw(dataset):
+    """Draw mean, spread and range against N and against epsilon, with the published mean."""
+    settings = dataset.attrs["settings"]
+    figure, axes = plotting.panels(1, 2, share_y=False)
+    for axis, prefix, x in (
+        (axes[0], "n_", dataset.n_particles),
+        (axes[1], "tolerance_", dataset.tolerance),
+    ):
+        mean, spread = dataset[prefix + "mean"], dataset[prefix + "spread"]
+        plotting.points(axis, x, mean, spread, 0, "mean and standard deviation", line=False)
+        axis.fill_between(
+            x,
+            dataset[prefix + "least"],
+            dataset[prefix + "most"],
+            color=plotting.COLOURS[0],
+            alpha=0.15,
+            lw=0,
+            label="range",
+        )
+        axis.plot(
+            x, dataset[prefix + "predicted"], color="0.3", ls="--", lw=1, label="contraction rate"
+        )
+        axis.set_xscale("log")
+    published = dataset.attrs["published"]["kac_fig9_coupling_mean"]
+    style = {"marker": "*", "ls": "", "color": plotting.COLOURS[1], "label": "published mean"}
+    axes[0].plot(settings["fixed_n_particles"], published, **style)
+    axes[1].plot(settings["fixed_tolerance"], published, **style)
+    axes[0].set_yscale("log")
+    plotting.plain_log(axes[0].xaxis)
+    axes[1].invert_xaxis()
+    axes[0].set_xlabel("number of particles $N$")
+    axes[1].set_xlabel("tolerance $\\varepsilon$")
+    axes[0].set_ylabel("coupling time in steps")
+    axes[0].set_title(f"$\\varepsilon$ = {settings['fixed_tolerance']:g}")
+    axes[1].set_title(f"N = {settings['fixed_n_particles']}")
+    axes[0].legend()
+    return figure

@@ -1,0 +1,78 @@
+"""A copy of the project in which the smoke configuration has run once."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SMOKE = ("--configfile", "config/smoke.yaml")
+
+
+class Project:
+    """A working copy of the project, and Snakemake in it."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def snakemake(self, *words):
+        """Run Snakemake on two cores; return the finished process, output as text."""
+        command = [sys.executable, "-m", "snakemake", "--cores", "2", *words]
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+
+    def planned(self, *words):
+        """Return rule -> number of jobs that a dry run plans; empty if nothing is to be done."""
+        answer = self.snakemake("--dry-run", *words)
+        assert answer.returncode == 0, answer.stderr
+        table = answer.stdout.split("Job stats:")[1:]
+        rows = re.findall(r"^(\w+) +(\d+)$", table[0].split("\n\n")[0], re.M) if table else []
+        return {rule: int(number) for rule, number in rows if rule != "total"}
+
+    def samples_planned(self, *words):
+        """Return the cases that a dry run would sample."""
+        answer = self.snakemake("--dry-run", *words)
+        return set(re.findall(r"Sampling (\S+)", answer.stdout + answer.stderr))
+
+    def edit(self, file, old, new):
+        """Replace the first occurrence of a text in a file of the copy."""
+        path = self.folder / file
+        text = path.read_text(encoding="utf-8")
+        assert old in text, f"{file} does not hold {old!r}"
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+def copy_project(folder):
+    """Copy all files that git knows or would add."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    for name in listed.stdout.splitlines():
+        if (ROOT / name).is_file():
+            target = folder / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, target)
+    return Project(folder)
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory):
+    """Return a project in which the smoke run is complete; tests must leave it as it is."""
+    project = copy_project(tmp_path_factory.mktemp("finished"))
+    answer = project.snakemake(*SMOKE)
+    assert answer.returncode == 0, answer.stdout + answer.stderr
+    return project
+
+
+@pytest.fixture
+def project(finished, tmp_path):
+    """Return a copy of the finished project, free to be edited."""
+    folder = tmp_path / "project"
+    shutil.copytree(finished.folder, folder)
+    return Project(folder)

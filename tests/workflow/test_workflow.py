@@ -1,0 +1,116 @@
+"""The workflow: what a run makes, and what a change makes it do again."""
+
+import json
+
+import pytest
+import yaml
+from conftest import SMOKE, copy_project
+
+from kacsim import items, plan
+
+
+def test_a_bare_dry_run_plans_every_job(tmp_path):
+    project = copy_project(tmp_path)
+    jobs = project.planned()
+    full = plan.Plan(plan.read_config(tmp_path / "config/config.yaml"))
+    assert jobs["sample"] == len(full.cases)
+    assert jobs["reduce"] == jobs["draw"] == len(items.NAMES)
+    assert jobs["report"] == jobs["all"] == 1
+
+
+def test_the_smoke_run_makes_everything_once(finished):
+    results = finished.folder / "results"
+    for name in items.NAMES:
+        for suffix in ("png", "svg", "pdf"):
+            assert (results / "figures" / f"{name}.{suffix}").stat().st_size > 1000
+    report = (results / "report/report.html").read_text(encoding="utf-8")
+    assert all(f'id="{name}"' in report for name in items.NAMES)
+    assert finished.planned(*SMOKE) == {}
+
+
+def test_every_job_has_a_log_and_a_benchmark(finished):
+    samples = {path.stem for path in (finished.folder / "results/samples").glob("*.nc")}
+    assert samples
+    assert samples == {path.stem for path in (finished.folder / "logs/sample").glob("*.log")}
+    assert samples == {path.stem for path in (finished.folder / "benchmarks/sample").glob("*.tsv")}
+
+
+def test_one_figure_runs_only_what_it_needs(tmp_path):
+    project = copy_project(tmp_path)
+    jobs = project.planned("kac_fig9", *SMOKE)
+    assert jobs == {"compile": 1, "sample": 2, "reduce": 1, "draw": 1, "kac_fig9": 1}
+
+
+def test_editing_a_kernel_samples_its_cases_again_and_no_others(project):
+    project.edit("kacsim/kac/bird.py", "touched = 0", "touched = 0  # edited")
+    again = project.samples_planned(*SMOKE)
+    everything = {path.stem for path in (project.folder / "results/samples").glob("*.nc")}
+    assert again == {name for name in everything if "-bird-" in name}
+    assert again
+
+
+def test_editing_a_shared_source_samples_everything_again(project):
+    project.edit("kacsim/variates.py", "Return +1.0 or -1.0.", "Return 1.0 or -1.0.")
+    everything = {path.stem for path in (project.folder / "results/samples").glob("*.nc")}
+    assert project.samples_planned(*SMOKE) == everything
+
+
+def test_editing_a_caption_writes_the_report_again_and_nothing_else(project):
+    captions = project.folder / "reports/captions.yaml"
+    captions.write_text(captions.read_text(encoding="utf-8") + "\n# edited\n", encoding="utf-8")
+    assert project.planned(*SMOKE) == {"report": 1, "all": 1}
+
+
+def test_editing_an_item_reduces_and_draws_it_again(project):
+    project.edit("kacsim/items/kac_fig4.py", "Draw one panel", "Draw a panel")
+    jobs = project.planned("kac_fig4", *SMOKE)
+    assert jobs == {"reduce": 1, "draw": 1, "kac_fig4": 1}
+
+
+def test_changing_a_setting_changes_only_its_item(project):
+    config = {"kac_fig4": {"n_draws": 2001}}
+    (project.folder / "more.yaml").write_text(yaml.safe_dump(config), encoding="utf-8")
+    both = ("--configfile", "config/smoke.yaml", "more.yaml")
+    again = project.samples_planned(*both)
+    assert again == {
+        "kac-bird-forward-n5-t2-3x2001",
+        "kac-poisson-forward-n5-t2-3x2001",
+    }
+
+
+def test_another_seed_samples_everything_again(project):
+    everything = {path.stem for path in (project.folder / "results/samples").glob("*.nc")}
+    assert project.samples_planned(*SMOKE, "--config", "seed=7") == everything
+
+
+def test_removing_a_figure_draws_it_alone(project):
+    (project.folder / "results/figures/kac_fig7.svg").unlink()
+    assert project.planned("kac_fig7", *SMOKE) == {"draw": 1, "kac_fig7": 1}
+
+
+@pytest.mark.parametrize(
+    ("config", "message"),
+    [
+        ({"kac_fig3": {"time_step": 2.0}}, "kac_fig3.time_step = 2.0"),
+        ({"kac_fig2": {"n_particle": [5]}}, "kac_fig2.n_particle: unknown key"),
+        ({"seed": -1}, "seed = -1"),
+    ],
+)
+def test_a_wrong_configuration_starts_nothing(tmp_path, config, message):
+    project = copy_project(tmp_path)
+    (tmp_path / "wrong.yaml").write_text(json.dumps(config), encoding="utf-8")
+    answer = project.snakemake("--configfile", "wrong.yaml")
+    assert answer.returncode == 2
+    assert f"wrong.yaml: {message}" in answer.stderr
+    assert not (tmp_path / "results").exists()
+
+
+@pytest.mark.parametrize("content", ["", "[1, 2]", "a: [", "- x\n- y"])
+def test_a_file_that_is_no_configuration_starts_nothing(tmp_path, content):
+    project = copy_project(tmp_path)
+    (tmp_path / "wrong.yaml").write_text(content, encoding="utf-8")
+    answer = project.snakemake("--configfile", "wrong.yaml")
+    assert answer.returncode != 0
+    assert "onfig file" in answer.stderr
+    assert "Traceback" not in answer.stderr
+    assert not (tmp_path / "results").exists()

@@ -48,3 +48,7 @@ include: "workflow/rules/sample.smk"
 include: "workflow/rules/reduce.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
+
+
+onsuccess:
+    shell("{KACSIM} times")

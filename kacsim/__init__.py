@@ -4,7 +4,7 @@ import importlib
 
 __version__ = "0.1.0"
 
-_PUBLIC = ("kac",)
+_PUBLIC = ("boltzmann", "kac")
 
 
 def __getattr__(name):

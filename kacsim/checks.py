@@ -12,8 +12,22 @@ MEAN_ENERGY = 1.5  # E[v**2] under f0, per particle
 STEPPED = ("nanbu_sequential", "nanbu_synchronous", "nanbu_babovsky")
 CONTINUOUS = ("bird", "poisson", "poisson_printed")
 ALGORITHMS = STEPPED + CONTINUOUS
+NAMES = {
+    "nanbu_sequential": "Nanbu (sequential)",
+    "nanbu_synchronous": "Nanbu (synchronous)",
+    "nanbu_babovsky": "Nanbu–Babovsky",
+    "bird": "Bird",
+    "poisson": "Poisson (exact)",
+    "poisson_printed": "Poisson (printed rate)",
+    "endless": "Poisson, N = ∞",
+}
 ENGINES = ("ancestral", "forward")
 RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
+
+MAX_NODES = 10_000_000  # budget of one tree of the Boltzmann paper
+BREATHING = 9.0 / 41.0  # eps of section V
+STARTS = ("bkw", "breathing")
+PUBLISHED_CHOICES = {"majorant_factor": 1.0, "spread": 1.0, "anisotropy": 0.0}
 
 
 @dataclass(frozen=True)
@@ -46,6 +60,38 @@ def positive(name, value):
     """Yield a problem unless the value is a positive finite number."""
     if not _is_number(value) or not math.isfinite(value) or value <= 0:
         yield Problem(name, value, "must be a positive finite number")
+
+
+def finite(name, value):
+    """Yield a problem unless the value is a finite number."""
+    if not _is_number(value) or not math.isfinite(value):
+        yield Problem(name, value, "must be a finite number")
+
+
+def at_least(name, value, least):
+    """Yield a problem unless the value is a finite number of at least `least`."""
+    if not _is_number(value) or not math.isfinite(value) or value < least:
+        yield Problem(name, value, f"must be a finite number of at least {least:g}")
+
+
+def not_negative(name, value):
+    """Yield a problem unless the value is a finite number, zero or positive."""
+    yield from at_least(name, value, 0)
+
+
+def breathing(name, value):
+    """Yield a problem unless the value is an amplitude of eq. (31), in [0, 1)."""
+    if not _is_number(value) or not 0 <= value < 1:
+        yield Problem(name, value, "must be at least 0 and less than 1")
+
+
+def trap_choices(*, majorant_factor, spread, anisotropy):
+    """Yield the problems of the sampling laws of Algorithms 5 and 6."""
+    yield from positive("majorant_factor", majorant_factor)
+    # The weight of c* grows without bound for a narrower law than the Maxwellian.
+    yield from at_least("spread", spread, 1.0)
+    if not _is_number(anisotropy) or not -1 < anisotropy < 1:
+        yield Problem("anisotropy", anisotropy, "must be greater than -1 and less than 1")
 
 
 def count(name, value, least=1):

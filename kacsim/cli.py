@@ -4,6 +4,7 @@ import argparse
 import json
 import math
 import sys
+import time
 from pathlib import Path
 
 from kacsim import plan
@@ -54,6 +55,9 @@ def _parser():
     one.add_argument("module", choices=plan.KERNEL_MODULES)
     one.add_argument("--output", required=True, help="file that gets the hash of the sources")
     one.set_defaults(run=_compile)
+    one = commands.add_parser("times", help="show where the time of the last run went")
+    one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
+    one.set_defaults(run=_times)
     one = commands.add_parser("benchmark", help="measure the kernels, as ratios in one run")
     one.add_argument("--repeats", type=int, default=5, help="runs whose median counts")
     one.set_defaults(run=_benchmark)
@@ -119,11 +123,14 @@ def _sample(arguments):
     problems = [Problem(plan.flag(p.name), p.value, p.allowed) for p in case.problems()]
     if problems:
         raise plan.PlanError("\n".join(map(str, problems)))
-    from kacsim import sampling, store
+    from kacsim import sampling, store, times
 
     title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
     store.check_writable(arguments.output)
-    store.write(sampling.run(case), arguments.output, title=title, settings=case.settings())
+    start = time.perf_counter()
+    variables = sampling.run(case)
+    print(times.drawn_sentence(case.n_draws * case.n_replicates, time.perf_counter() - start))
+    store.write(variables, arguments.output, title=title, settings=case.settings())
 
 
 def _known_item(name):
@@ -175,6 +182,12 @@ def _compile(arguments):
     sampling.compile_module(arguments.module)
     text = provenance.source_hash(*jit.kernel_sources(arguments.module)) + "\n"
     store.replace_file(arguments.output, lambda name: Path(name).write_text(text))
+
+
+def _times(arguments):
+    from kacsim import times
+
+    print(times.table(arguments.folder))
 
 
 def _benchmark(arguments):

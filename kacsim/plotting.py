@@ -15,14 +15,6 @@ from kacsim.store import replace_file
 # Okabe and Ito's colours, told apart by all common kinds of colour vision; markers differ too.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-NAMES = {
-    "nanbu_sequential": "Nanbu (sequential)",
-    "nanbu_synchronous": "Nanbu (synchronous)",
-    "nanbu_babovsky": "Nanbu–Babovsky",
-    "bird": "Bird",
-    "poisson": "Poisson (exact)",
-    "poisson_printed": "Poisson (printed rate)",
-}
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 9,
@@ -74,11 +66,11 @@ def points(axis, x, y, errors, k, label, *, line=True):
     )
 
 
-def bars(axis, edges, density, k, label):
-    """Draw a histogram as an outline over a light fill, in the k-th colour."""
-    axis.stairs(
-        np.asarray(density), np.asarray(edges), fill=True, color=COLOURS[k], alpha=0.25, lw=0
-    )
+def bars(axis, edges, density, k, label, *, fill=True):
+    """Draw a histogram as an outline, over a light fill or not, in the k-th colour."""
+    if fill:
+        style = {"fill": True, "color": COLOURS[k], "alpha": 0.25, "lw": 0}
+        axis.stairs(np.asarray(density), np.asarray(edges), **style)
     axis.stairs(np.asarray(density), np.asarray(edges), color=COLOURS[k], lw=0.8, label=label)
 
 
@@ -125,6 +117,13 @@ def pm(mean):
         return f"{mean.value:.4g}"
     digits = max(0, 1 - math.floor(math.log10(mean.standard_error)))
     return f"{mean.value:.{digits}f} ± {mean.standard_error:.{digits}f}"
+
+
+def power_of_ten(value):
+    """Return 1e-06 as 10 to the power -6, for a title."""
+    mantissa, exponent = f"{value:.0e}".split("e")
+    factor = "" if mantissa == "1" else f"{mantissa}\\times "
+    return f"${factor}10^{{{int(exponent)}}}$"
 
 
 def save(figure, path):

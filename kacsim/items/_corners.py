@@ -38,6 +38,7 @@ def octant(axis, radius):
     for plane in (axis.xaxis, axis.yaxis, axis.zaxis):
         plane.set_pane_color("white")
         plane.set_ticklabels(["0", "$\\sqrt{E}$"])
+    axis.zaxis.set_rotate_label(False)
     axis.grid(visible=False)
     axis.view_init(elev=25, azim=35)
     axis.set_box_aspect((1, 1, 1))

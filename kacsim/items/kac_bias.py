@@ -2,7 +2,7 @@
 
 import math
 
-from kacsim.checks import ALGORITHMS, STEPPED
+from kacsim.checks import ALGORITHMS, NAMES, STEPPED
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, moments, np, plotting, store, verdict, xr
 from kacsim.plan import make_case
@@ -135,13 +135,13 @@ def claims(dataset):
 
 def draw(dataset):
     """Draw E v_1**4 against N and against the step, points measured and lines exact."""
-    figure, axes = plotting.panels(1, 2, share_y=True)
+    figure, axes = plotting.panels(1, 2)
     for k, algorithm in enumerate(dataset.algorithm.values):
         here = dataset.sel(algorithm=algorithm)
-        _series(axes[0], here.n_particles, here, "", k, plotting.NAMES[str(algorithm)])
+        _series(axes[0], here.n_particles, here, "", k, NAMES[str(algorithm)])
     for k, algorithm in enumerate(dataset.stepped.values):
         here = dataset.sel(stepped=algorithm)
-        _series(axes[1], here.time_step, here, "step_", k, plotting.NAMES[str(algorithm)])
+        _series(axes[1], here.time_step, here, "step_", k, NAMES[str(algorithm)])
     for axis in axes:
         axis.axhline(float(dataset.limit), color="black", ls="--", lw=1, label="$N\\to\\infty$")
         axis.set_xscale("log")

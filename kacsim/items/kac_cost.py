@@ -2,7 +2,7 @@
 
 import math
 
-from kacsim.checks import RATE
+from kacsim.checks import NAMES, RATE
 from kacsim.items import _kac
 from kacsim.items._lazy import ancestors, estimate, np, plotting, store, xr
 
@@ -104,7 +104,7 @@ def draw(dataset):
     figure, axes = plotting.panels(1, 2)
     finite = dataset.where(np.isfinite(dataset.n_particles), drop=True)
     for k, algorithm in enumerate(dataset.algorithm.values):
-        name = plotting.NAMES[str(algorithm)]
+        name = NAMES[str(algorithm)]
         here, there = dataset.sel(algorithm=algorithm), finite.sel(algorithm=algorithm)
         style = {"line": False}
         plotting.points(

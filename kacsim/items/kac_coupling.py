@@ -126,7 +126,7 @@ def draw(dataset):
     axes[0].set_xlabel("number of particles $N$")
     axes[1].set_xlabel("tolerance $\\varepsilon$")
     axes[0].set_ylabel("coupling time in steps")
-    axes[0].set_title(f"$\\varepsilon$ = {settings['fixed_tolerance']:g}")
+    axes[0].set_title("$\\varepsilon$ = " + plotting.power_of_ten(settings["fixed_tolerance"]))
     axes[1].set_title(f"N = {settings['fixed_n_particles']}")
     axes[0].legend()
     return figure

@@ -1,5 +1,6 @@
 """Fig. 1 of the Kac paper: histograms of v_1 under Nanbu's algorithm, small and large step."""
 
+from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, plotting, store, verdict
 
@@ -78,8 +79,9 @@ def draw(dataset):
         here = dataset.sel(time_step=step)
         for r, reading in enumerate(READINGS):
             mean, _ = _tvn(dataset, reading, step)
-            label = f"{plotting.NAMES[reading]}\nTVN {plotting.pm(mean)}"
-            plotting.bars(axis, here.edge, here.density.sel(reading=reading), r, label)
+            label = f"{NAMES[reading]}\nTVN {plotting.pm(mean)}"
+            density = here.density.sel(reading=reading)
+            plotting.bars(axis, here.edge, density, r, label, fill=r == 0)
         plotting.solution(axis, dataset.attrs["settings"]["time"])
         axis.set_title(f"$\\Delta t$ = {step:g}")
         plotting.velocity_axis(axis)

@@ -1,5 +1,6 @@
 """Fig. 3 of the Kac paper: mean TVN of Nanbu, Bird and Poisson against the number of particles."""
 
+from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, np, plotting, verdict
 
@@ -42,8 +43,8 @@ def _where_better(dataset, algorithm, rival):
     error = np.hypot(*(here.tvn_error.sel(algorithm=name) for name in (rival, algorithm)))
     z = (gap / error).values
     names = [", ".join(map(str, here.n_particles.values[chosen])) for chosen in (z > 4, z < -4)]
-    nearer, farther = (name or "none" for name in names)
-    return f"Nearer by four errors at N = {nearer}; farther at N = {farther}."
+    nearer, farther = (f"at N = {name}" if name else "at no N" for name in names)
+    return f"Nearer by four errors {nearer}; farther {farther}."
 
 
 def claims(dataset):
@@ -59,7 +60,7 @@ def claims(dataset):
                     f"kac_fig3_{variant}_{rival.split('_')[0]}",
                     gap.value,
                     gap.standard_error,
-                    evidence=f"Mean TVN of the rival less that of Poisson, over N ≤ {few}. {better}",
+                    evidence=f"Mean TVN of the rival less Poisson's, over N ≤ {few}. {better}",
                 )
             )
     return [*found, _printed_rate(dataset), _printed_shape(dataset)]
@@ -102,7 +103,7 @@ def draw(dataset):
     here = dataset.isel(bin_width=0)
     for k, algorithm in enumerate(ALGORITHMS):
         line = here.sel(algorithm=algorithm)
-        label = plotting.NAMES[algorithm]
+        label = NAMES[algorithm]
         plotting.points(axis, line.n_particles, line.tvn, line.tvn_error, k, label)
     plotting.floor(axis, float(here.floor))
     axis.set_xscale("log")

@@ -54,5 +54,5 @@ def draw(dataset):
     axis.scatter(*after.T, color=plotting.COLOURS[2], marker="^", s=30, label="images", **style)
     i, j = dataset.pair.values
     axis.set_title(f"pair ({i}, {j}), $\\theta$ = {float(dataset.angle):.0f}°")
-    axis.legend(loc="upper left")
+    figure.legend(loc="outside lower center", ncols=3, frameon=False)
     return figure

@@ -164,5 +164,7 @@ def draw(dataset):
     )
     axes[1].set_xlabel("coupling time in steps")
     axes[1].set_ylabel("density")
-    axes[1].legend()
+    low, high = axes[1].get_ylim()
+    axes[1].set_ylim(low, 1.35 * high)
+    axes[1].legend(loc="upper center", ncols=2)
     return figure

@@ -1,5 +1,7 @@
 """Every number and every checkable claim of the Kac paper: published, measured, verdict."""
 
+import textwrap
+
 from kacsim import items
 from kacsim.items._lazy import np, plotting, store, verdict, xr
 
@@ -13,7 +15,7 @@ USES = (
     "kac_bias",
     "kac_tails",
 )
-TEXTS = ("claim", "kind", "verdict", "evidence")
+TEXTS = ("claim", "text", "kind", "verdict", "evidence")
 NUMBERS = {
     "reference": "published or printed value",
     "measured": "measured value",
@@ -55,6 +57,7 @@ def reduce(samples, settings):
             table[key].append(getattr(finding, key))
         for key in ("kind", "verdict", "z", "p_value", "adjusted_p_value"):
             table[key].append(row[key])
+        table["text"].append(published[finding.claim]["text"])
         table["reference"].append(verdict.reference(finding, published[finding.claim]))
     described, dims = store.described, ("row",)
     variables = {
@@ -67,18 +70,22 @@ def reduce(samples, settings):
 
 def draw(dataset):
     """Draw the statistic of every claim, symbols by verdict."""
-    figure, (axis,) = plotting.panels(1, 1, width=7.0, height=0.22 * dataset.sizes["row"] + 1)
+    figure, (axis,) = plotting.panels(1, 1, width=8.0, height=0.22 * dataset.sizes["row"] + 1)
     limit = 30.0
     row = np.arange(dataset.sizes["row"])
     z = np.clip(np.nan_to_num(dataset.z.values, posinf=limit, neginf=-limit), -limit, limit)
-    for k, name in enumerate((verdict.REPRODUCED, verdict.CORRECTED, verdict.NOT_REPRODUCED)):
+    for k, name in enumerate(
+        (verdict.REPRODUCED, verdict.CORRECTED, verdict.NOT_REPRODUCED, verdict.UNDECIDED)
+    ):
         here = dataset.verdict.values == name
-        colour, marker = plotting.COLOURS[(2, 0, 1)[k]], plotting.MARKERS[k]
+        colour, marker = plotting.COLOURS[(2, 0, 1, 3)[k]], plotting.MARKERS[k]
         axis.plot(z[here], row[here], marker, color=colour, ls="", label=name)
-    axis.axvspan(-4, 4, color="0.9", zorder=0)
-    axis.set_yticks(row, [str(claim) for claim in dataset.claim.values])
+    axis.axvline(0, color="0.7", lw=0.8, zorder=0)
+    axis.grid(axis="y", color="0.92", zorder=0)
+    axis.set_yticks(row, [textwrap.shorten(str(text), 62) for text in dataset.text.values])
+    axis.tick_params(axis="y", labelsize=7)
     axis.invert_yaxis()
     axis.set_xlim(-limit - 1, limit + 1)
-    axis.set_xlabel(f"z = (measured $-$ published) / error, cut at $\\pm${limit:g}; grey: |z| < 4")
-    figure.legend(loc="outside upper center", ncols=3, frameon=False)
+    axis.set_xlabel(f"z = (measured $-$ published) / error, cut at $\\pm${limit:g}")
+    figure.legend(loc="outside upper center", ncols=4, frameon=False)
     return figure

@@ -2,11 +2,11 @@
 
 import math
 
+from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, np, plotting, store, tail, verdict, xr
 
 SERIES = ("bird", "poisson", "poisson_printed", "endless")
-LABELS = {"endless": "Poisson, $N=\\infty$"}
 
 
 def _grid(settings):
@@ -67,7 +67,7 @@ def claims(dataset):
     """Test whether Poisson is nearer than Bird to the exact tail at one threshold."""
     x = dataset.attrs["settings"]["claim_threshold"]
     miss = {name: _miss(dataset, name, x) for name in SERIES}
-    scores = ", ".join(f"{name} {mean.z():+.1f}" for name, mean in miss.items())
+    scores = ", ".join(f"{NAMES[name]} {mean.z():+.1f}" for name, mean in miss.items())
     gap = abs(miss["bird"].value) - abs(miss["poisson"].value)
     return [
         verdict.Finding(
@@ -86,7 +86,7 @@ def draw(dataset):
         here = dataset.sel(series=series)
         ratio, low, high = (here[name] / here.exact for name in ("share", "low", "high"))
         errors = np.maximum(0.0, [ratio - low, high - ratio])
-        label = LABELS.get(series) or plotting.NAMES[series]
+        label = NAMES[series]
         x = here.threshold + 0.05 * (k - 1.5)
         for axis in axes:
             plotting.points(axis, x, ratio, errors, k, label, line=False)
@@ -98,5 +98,8 @@ def draw(dataset):
         axis.axhline(1.0, color="black", lw=1)
         axis.set_xlabel("threshold $x$")
     axes[0].set_ylabel("P(|$v_1$| > $x$) / exact, 95 % intervals")
+    axes[0].set_yscale("log")
+    axes[0].set_ylim(0.4, 3.5)
+    plotting.plain_log(axes[0].yaxis)
     axes[0].legend()
     return figure

@@ -7,6 +7,7 @@ from scipy import special
 
 FAMILY_ERROR = 0.01  # chance of one wrong "not reproduced" or more in the whole table, by Holm
 REPRODUCED, NOT_REPRODUCED, CORRECTED = "reproduced", "not reproduced", "corrected"
+UNDECIDED = "undecided"  # too few draws to tell the printed formula from the corrected one
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,8 @@ def judge(findings, published):
     published : dict, claim id -> entry of reports/published.yaml with ``kind`` and ``value``.
         Kinds: *number* is reproduced unless the measured value contradicts it; *effect* (value:
         the bound) is reproduced only if the measured value is significantly above the bound;
-        *correction* is corrected if the printed value is rejected and the corrected one is not.
+        *correction* is corrected if the printed value is rejected and the corrected one is not,
+        undecided if neither is. A value read off a figure has a ``reading_error``.
 
     Returns
     -------
@@ -80,7 +82,8 @@ def judge(findings, published):
     rows = []
     for finding in findings:
         entry = published[finding.claim]
-        error = math.hypot(finding.standard_error, finding.published_error)
+        reading = entry.get("reading_error", 0.0)
+        error = math.hypot(finding.standard_error, finding.published_error, reading)
         z = statistic(finding.measured, reference(finding, entry), error)
         rows.append({"z": z, "p_value": p_value(z, entry["kind"]), "kind": entry["kind"]})
     adjusted = holm([row["p_value"] for row in rows])
@@ -98,6 +101,6 @@ def _verdict(finding, kind, rejected, family):
     error = math.hypot(finding.standard_error, finding.published_error)
     z = statistic(finding.measured, finding.corrected, error)
     stands = p_value(z, "correction") * family >= FAMILY_ERROR
-    if not rejected:
-        return REPRODUCED
-    return CORRECTED if stands else NOT_REPRODUCED
+    if rejected:
+        return CORRECTED if stands else NOT_REPRODUCED
+    return UNDECIDED if stands else REPRODUCED

@@ -113,9 +113,19 @@ def n_steps(time, time_step):
     return steps if steps >= 1 and math.isclose(ratio, steps, rel_tol=1e-9) else None
 
 
-def kac(*, algorithm, engine, n_particles, time, time_step=None, collision_rate=RATE, **_):
+def kac(
+    *,
+    algorithm,
+    engine,
+    n_particles,
+    time,
+    time_step=None,
+    collision_rate=RATE,
+    keep_above=None,
+):
     """Yield the problems of a draw of v_1 at time t (Kac paper, section 4)."""
     before = [
+        *([] if keep_above is None else finite("keep_above", keep_above)),
         *one_of("algorithm", algorithm, ALGORITHMS),
         *one_of("engine", engine, ENGINES),
         *positive("time", time),

@@ -279,7 +279,7 @@ class Plan:
                 content = _read_yaml(file)
             except PlanError:
                 continue
-            for key in path[:2]:
+            for key in [key for key in path if isinstance(key, str)]:
                 content = content.get(key) if isinstance(content, dict) else None
             if content is not None:
                 return file

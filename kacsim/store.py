@@ -4,6 +4,7 @@ Files are written under a temporary name and then renamed: a file that exists is
 attribute holds a time, so that the same result has the same bytes.
 """
 
+import errno
 import json
 import os
 import tempfile
@@ -38,8 +39,9 @@ def replace_file(path, write):
         write(temporary)
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
-    except OSError as error:
-        raise StoreError(f"{path}: cannot be written: {error.strerror or error}") from error
+    except (OSError, RuntimeError) as error:  # the NetCDF library reports a full disk as either
+        reason = getattr(error, "strerror", None) or error
+        raise StoreError(f"{path}: cannot be written: {reason}") from error
     finally:
         if temporary and os.path.exists(temporary):
             os.remove(temporary)
@@ -142,6 +144,8 @@ def check_writable(path):
     path = Path(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
         with tempfile.TemporaryFile(dir=path.parent):
             pass
     except OSError as error:

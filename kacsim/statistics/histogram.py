@@ -85,23 +85,3 @@ def noise_spread(expected, n_draws):
     expected = np.asarray(expected, dtype=float)
     variance = (1.0 - 2.0 / np.pi) * (expected * (1.0 - expected)).sum() / n_draws
     return float(0.5 * np.sqrt(variance))
-
-
-def chi_squared(counts, expected, least=10.0):
-    """Return (statistic, p-value) of Pearson's test, rare outer bins merged into their neighbours.
-
-    Parameters
-    ----------
-    counts : int[bins]
-    expected : float64[bins], probabilities
-    least : smallest expected count of a bin after merging
-    """
-    from scipy import special
-
-    counts, mean = np.asarray(counts, dtype=float), np.asarray(expected) * np.sum(counts)
-    groups = np.minimum(np.cumsum(mean) // least, mean.sum() // least - 1).astype(int)
-    observed = np.bincount(groups, counts)
-    wanted = np.bincount(groups, mean)
-    kept = wanted > 0
-    statistic = float(((observed[kept] - wanted[kept]) ** 2 / wanted[kept]).sum())
-    return statistic, float(special.chdtrc(kept.sum() - 1, statistic))

@@ -1,0 +1,125 @@
+"""E v_1**4 and E v_1**2 of every algorithm on both engines, against the exact finite-N moments.
+
+72 z tests of 6.3e-5 each: a false alarm in 0.46 % of the seeds. The parameters are awkward, so
+that no factor hides behind a 1: t = 1.7, rate 0.9, N = 7 with steps of 0.34, N = 3 and N = 2.
+"""
+
+import math
+
+import pytest
+from law import compare
+
+from kacsim import kac
+from kacsim.checks import ENGINES, STEPPED
+from kacsim.kac import moments
+
+TIME, RATE = 1.7, 0.9
+# (particles, steps, draws); Nanbu-Babovsky needs at most N / 2 pairs in a step
+SHAPES = [(7, 5, 3_000_000), (3, 5, 2_000_000), (2, 2, 2_000_000)]
+MUTANT_DRAWS = 2_000_000
+
+
+def velocities(algorithm, engine, n, steps, n_draws, seed, rate=RATE):
+    step = TIME / steps if algorithm in STEPPED else None
+    return kac.draw(
+        algorithm,
+        n_particles=n,
+        time=TIME,
+        time_step=step,
+        n_draws=n_draws,
+        seed=seed,
+        collision_rate=rate,
+        engine=engine,
+    )
+
+
+def exact(algorithm, n, steps, rate=RATE):
+    step = TIME / steps if algorithm in STEPPED else None
+    return kac.fourth_moment(TIME, n, algorithm=algorithm, time_step=step, collision_rate=rate)
+
+
+@pytest.mark.parametrize(("n", "steps", "n_draws"), SHAPES)
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("algorithm", kac.ALGORITHMS)
+def test_moments(algorithm, engine, n, steps, n_draws, seed):
+    """Null: the exact E v_1**4 of this N and step, and E v_1**2 = 3/2.
+
+    Statistic: z of the means, v**2 as control variate of v**4. 3e6 draws have a standard error
+    of 0.056 % of E v**4 and see a bias of 0.22 %; 2e6 draws see 0.27 %.
+    """
+    v = velocities(algorithm, engine, n, steps, n_draws, seed)
+    assert abs(compare.of_energy(v)) <= compare.LIMIT
+    assert abs(compare.of_fourth(v, exact(algorithm, n, steps))) <= compare.LIMIT
+
+
+# (algorithm, engine, N, steps) drawn, and the exact moment of something else
+MUTANTS = {
+    "printed rate against the exact process": (
+        ("poisson_printed", "ancestral", 3, None),
+        lambda: exact("poisson", 3, None),
+    ),
+    "exact rate against the printed one": (
+        ("poisson", "forward", 3, None),
+        lambda: exact("poisson_printed", 3, None),
+    ),
+    "sequential drawn, synchronous expected": (
+        ("nanbu_sequential", "ancestral", 7, 2),
+        lambda: exact("nanbu_synchronous", 7, 2),
+    ),
+    "synchronous drawn, sequential expected": (
+        ("nanbu_synchronous", "ancestral", 7, 2),
+        lambda: exact("nanbu_sequential", 7, 2),
+    ),
+    "forward sequential, synchronous expected": (
+        ("nanbu_sequential", "forward", 7, 2),
+        lambda: exact("nanbu_synchronous", 7, 2),
+    ),
+    "forward synchronous, sequential expected": (
+        ("nanbu_synchronous", "forward", 7, 2),
+        lambda: exact("nanbu_sequential", 7, 2),
+    ),
+    "one step more than drawn": (
+        ("nanbu_synchronous", "ancestral", 7, 5),
+        lambda: moments.nanbu_synchronous(7, 6, RATE * TIME / 5),
+    ),
+    "Bird with one collision less": (
+        ("bird", "ancestral", 7, None),
+        lambda: moments.fourth_moment(
+            TIME - 2.0 / (7 * RATE), 7, algorithm="bird", collision_rate=RATE
+        ),
+    ),
+    "Bird as if it were the exact process": (
+        ("bird", "forward", 3, None),
+        lambda: exact("poisson", 3, None),
+    ),
+    "disjoint pairs, replacement expected": (
+        ("nanbu_babovsky", "ancestral", 7, 2),
+        lambda: moments.nanbu_babovsky(7, 2, RATE * TIME / 2, replacement=True),
+    ),
+    "forward disjoint pairs, replacement expected": (
+        ("nanbu_babovsky", "forward", 7, 2),
+        lambda: moments.nanbu_babovsky(7, 2, RATE * TIME / 2, replacement=True),
+    ),
+    "rate 0.9 as if it were 1": (
+        ("poisson", "ancestral", 7, None),
+        lambda: exact("poisson", 7, None, rate=1.0),
+    ),
+    "seven particles as if they were infinitely many": (
+        ("poisson", "forward", 7, None),
+        lambda: exact("poisson", math.inf, None),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MUTANTS)
+def test_mutants_are_caught(name, seed):
+    """Negative controls, 2e6 draws each: the same statistic against a wrong process."""
+    drawn, wrong = MUTANTS[name]
+    v = velocities(*drawn, MUTANT_DRAWS, seed)
+    assert abs(compare.of_fourth(v, wrong())) > compare.CAUGHT
+
+
+def test_energy_of_a_mutant_is_caught(seed):
+    """Negative control of E v**2: velocities 0.4 % too large, at the draws of the smaller tests."""
+    v = velocities("bird", "ancestral", 3, None, 2_000_000, seed)
+    assert abs(compare.of_energy(1.004 * v)) > compare.CAUGHT

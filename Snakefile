@@ -23,7 +23,9 @@ configfile: ROOT / "config" / "config.yaml"
 KACSIM = f"PYTHONPATH={shlex.quote(str(ROOT))} {shlex.quote(sys.executable)} -m kacsim"
 FORMATS = ("png", "svg", "pdf")
 # Messages name the last file that sets a key; those of the command line come last.
-CONFIG_FILES = sorted(workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml")
+CONFIG_FILES = sorted(
+    workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml"
+)
 
 try:
     the_plan = plan.Plan(config, CONFIG_FILES)

@@ -9,13 +9,15 @@ rule compile:
         "logs/compile/{kernels}.log",
     benchmark:
         "benchmarks/compile/{kernels}.tsv"
-    threads: 1
     priority: 1000
+    threads: 1
     resources:
         mem_mb=800,
         runtime=10,
     params:
-        code=lambda wildcards: source_hash(*plan.compile_sources(f"{wildcards.kernels}.py")),
+        code=lambda wildcards: source_hash(
+            *plan.compile_sources(f"{wildcards.kernels}.py")
+        ),
     message:
         "Compiling the kernels of {wildcards.kernels}"
     shell:

@@ -12,15 +12,19 @@ import sys
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import items, plan
+from kacsim import cases, items, plan
 from kacsim.provenance import ROOT, source_hash
 
 
 configfile: ROOT / "config" / "config.yaml"
 
 
-# The interpreter that runs Snakemake, and this clone: the printed commands work from anywhere.
-KACSIM = f"PYTHONPATH={shlex.quote(str(ROOT))} {shlex.quote(sys.executable)} -m kacsim"
+# `kacsim` in a rule is the interpreter that runs Snakemake on this clone, installed or not.
+shell.prefix(
+    'kacsim() {{ PYTHONPATH=%s %s -m kacsim "$@"; }}; '
+    % (shlex.quote(str(ROOT)), shlex.quote(sys.executable))
+)
+
 FORMATS = ("png", "svg", "pdf")
 # Messages name the last file that sets a key; those of the command line come last.
 CONFIG_FILES = sorted(
@@ -37,7 +41,7 @@ except plan.PlanError as error:
 wildcard_constraints:
     case="|".join(map(re.escape, the_plan.cases)),
     item="|".join(items.NAMES),
-    kernels="|".join(module.removesuffix(".py") for module in plan.KERNEL_MODULES),
+    kernels="|".join(module.removesuffix(".py") for module in cases.KERNEL_MODULES),
 
 
 rule all:
@@ -53,4 +57,4 @@ include: "workflow/rules/report.smk"
 
 
 onsuccess:
-    shell("{KACSIM} times")
+    shell("kacsim times")

@@ -12,10 +12,10 @@ import time
 
 import numpy as np
 
+from kacsim.cases import make_case
 from kacsim.checks import MEAN_ENERGY, RATE
 from kacsim.jit import kernel
 from kacsim.kac import bird, perfect, poisson
-from kacsim.plan import make_case
 from kacsim.provenance import versions
 from kacsim.streams import new_stream
 

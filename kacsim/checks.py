@@ -194,3 +194,50 @@ def amount(*, n_draws, n_replicates, seed, **_):
     yield from count("n_draws", n_draws)
     yield from count("n_replicates", n_replicates)
     yield from count("seed", seed, least=0)
+
+
+def _probes(*, max_nodes=MAX_NODES, oversampling=1.0, **axes):
+    """Yield the problems of a grid of probes of the Boltzmann paper."""
+    for name, values in axes.items():
+        if not isinstance(values, (list, tuple)) or not values:
+            yield Problem(name, values, "must be a list of numbers")
+            continue
+        for value in values:
+            yield from (positive if name == "majorant" else not_negative)(name, value)
+    yield from count("max_nodes", max_nodes)
+    yield from at_least("oversampling", oversampling, 1.0)
+
+
+def kac_probe(*, speed, time, collision_rate=RATE, **tree):
+    """Yield the problems of probing the Kac equation by trees."""
+    yield from positive("collision_rate", collision_rate)
+    yield from _probes(speed=speed, time=time, **tree)
+
+
+bkw = bkw_fraction = extinction = _probes
+
+
+def bkw_literal(*, initial, speed, time):
+    """Yield the problems of the literal Algorithm 2."""
+    yield from one_of("initial", initial, ("bkw", "equilibrium"))
+    yield from _probes(speed=speed, time=time)
+
+
+def bkw_tree(*, speed, time):
+    """Yield the problems of recorded trees."""
+    yield from not_negative("speed", speed)
+    yield from not_negative("time", time)
+
+
+def trap(*, radius, time, initial, max_nodes, coupling, start_phase, **others):
+    """Yield the problems of probing the trap (`breathing` and the sampling laws among others)."""
+    choices = dict(others)
+    yield from breathing("breathing", choices.pop("breathing"))
+    yield from one_of("initial", initial, STARTS)
+    yield from positive("coupling", coupling)
+    yield from finite("start_phase", start_phase)
+    yield from trap_choices(**choices)
+    yield from _probes(radius=radius, time=time, max_nodes=max_nodes)
+
+
+trap_fraction = trap

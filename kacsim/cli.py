@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-from kacsim import plan
+from kacsim import cases, plan
 from kacsim.checks import Problem
 
 USAGE_ERROR = 2
@@ -52,7 +52,7 @@ def _parser():
     one.add_argument("--output", required=True)
     one.set_defaults(run=_report)
     one = commands.add_parser("compile", help="compile a module's kernels into the kernel cache")
-    one.add_argument("module", choices=plan.KERNEL_MODULES)
+    one.add_argument("module", choices=cases.KERNEL_MODULES)
     one.add_argument("--output", required=True, help="file that gets the hash of the sources")
     one.set_defaults(run=_compile)
     one = commands.add_parser("times", help="show where the time of the last run went")
@@ -67,11 +67,12 @@ def _parser():
 def _add_sample(commands):
     parent = commands.add_parser("sample", help="draw one case")
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
-    for sampler, names in plan.SAMPLERS.items():
+    for sampler, names in cases.SAMPLERS.items():
         one = samplers.add_parser(sampler)
         for name in names:
-            required = name not in plan.DEFAULTS
-            one.add_argument(plan.flag(name), type=_value(name), required=required)
+            required = name not in cases.DEFAULTS
+            many = {"nargs": "+"} if name in cases.LISTS.get(sampler, ()) else {}
+            one.add_argument(cases.flag(name), type=_value(name), required=required, **many)
         one.add_argument("--n-draws", type=_integer, required=True, help="draws of a replicate")
         one.add_argument("--n-replicates", type=_integer, default=1)
         one.add_argument("--seed", type=_integer, required=True)
@@ -80,8 +81,10 @@ def _add_sample(commands):
 
 
 def _value(name):
-    if name in ("algorithm", "engine"):
+    if name in ("algorithm", "engine", "initial"):
         return str
+    if name == "max_nodes":
+        return _integer
     return _count if name == "n_particles" else _float
 
 
@@ -115,12 +118,12 @@ def _plan(arguments):
 
 
 def _sample(arguments):
-    names = plan.SAMPLERS[arguments.sampler]
+    names = cases.SAMPLERS[arguments.sampler]
     given = {name: getattr(arguments, name) for name in names}
     given = {name: value for name, value in given.items() if value is not None}
     size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}
-    case = plan.make_case(arguments.sampler, **given, **size)
-    problems = [Problem(plan.flag(p.name), p.value, p.allowed) for p in case.problems()]
+    case = cases.make_case(arguments.sampler, **given, **size)
+    problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
     if problems:
         raise plan.PlanError("\n".join(map(str, problems)))
     from kacsim import sampling, store, times

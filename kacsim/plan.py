@@ -6,139 +6,20 @@ Nothing heavy is imported here: Snakemake reads the plan at every start.
 import json
 import math
 import os
-import shlex
-from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 
-from kacsim import checks, items
-from kacsim.checks import RATE
+from kacsim import items
 from kacsim.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml")
 COMMON = ("seed", "bin_width", "other_bin_widths")
 
-# sampler -> its parameters with their short forms in a case id, in the order of both
-SAMPLERS = {
-    "kac": {
-        "algorithm": "",
-        "engine": "",
-        "n_particles": "n",
-        "time": "t",
-        "time_step": "dt",
-        "collision_rate": "rate",
-        "keep_above": "above",
-    },
-    "kac_equilibrium": {"n_particles": "n", "tolerance": "eps", "energy": "e"},
-    "kac_corners": {"n_particles": "n", "tolerance": "eps"},
-}
-# The sources that a draw's bits depend on; the files of the algorithms are added by `Case.sources`.
-SAMPLE_SOURCES = (
-    "jit.py",
-    "streams.py",
-    "variates.py",
-    "sampling.py",
-    "store.py",
-    "kac/draws.py",
-    "kac/model.py",
-)
-ALGORITHM_FILES = {
-    "nanbu_sequential": "kac/nanbu.py",
-    "nanbu_synchronous": "kac/nanbu.py",
-    "nanbu_babovsky": "kac/nanbu_babovsky.py",
-    "bird": "kac/bird.py",
-    "poisson": "kac/poisson.py",
-    "poisson_printed": "kac/poisson.py",
-}
-KERNEL_MODULES = (*dict.fromkeys(ALGORITHM_FILES.values()), "kac/perfect.py")
-DEFAULTS = {"time_step": None, "collision_rate": RATE, "keep_above": None, "energy": None}
-
 
 class PlanError(Exception):
     """Everything that is wrong with a configuration, one line each."""
-
-
-@dataclass(frozen=True)
-class Case:
-    """One sampler with one set of parameters, drawn n_replicates times n_draws.
-
-    Attributes
-    ----------
-    sampler : name in `SAMPLERS`
-    parameters : dict, every parameter of the sampler (see `make_case`)
-    n_draws, n_replicates : int, draws of each replicate, and replicates
-    seed : int, not part of the id
-    """
-
-    sampler: str
-    parameters: dict
-    n_draws: int
-    n_replicates: int
-    seed: int
-
-    @property
-    def id(self):
-        """Return the case's name, made from its parameters; never parsed back."""
-        tokens = [self.sampler.replace("_", "-")]
-        for name, short in SAMPLERS[self.sampler].items():
-            value = self.parameters[name]
-            if name not in DEFAULTS or value != DEFAULTS[name]:
-                tokens.append(short + _plain(value))
-        return "-".join([*tokens, f"{self.n_replicates}x{self.n_draws}"])
-
-    def arguments(self):
-        """Return the command-line words that sample this case."""
-        words = [self.sampler]
-        for name, value in self.parameters.items():
-            if name not in DEFAULTS or value != DEFAULTS[name]:
-                words += [flag(name), str(value)]
-        for name in ("n_draws", "n_replicates", "seed"):
-            words += [flag(name), str(getattr(self, name))]
-        return shlex.join(words)
-
-    def priority(self):
-        """Return a rank that starts the longest cases first: the logarithm of their work."""
-        p = self.parameters
-        work = self.n_draws * self.n_replicates
-        if self.sampler == "kac_equilibrium":
-            work *= 20.0 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
-        elif p.get("engine") == "forward":
-            work *= p["n_particles"]
-        else:
-            work *= 6.0
-        return round(10.0 * math.log2(max(1.0, work)))
-
-    def problems(self):
-        """Return the list of what is wrong with the parameters and the size."""
-        size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
-        check = getattr(checks, self.sampler)
-        return [*check(**self.parameters), *checks.amount(**size)]
-
-    @property
-    def kernel_module(self):
-        """Return the package's file that holds the sampler's kernels."""
-        return ALGORITHM_FILES.get(self.parameters.get("algorithm"), "kac/perfect.py")
-
-    def compiled(self):
-        """Return the file that stands for the sampler's compiled kernels."""
-        return f"results/kernels/{self.kernel_module.removesuffix('.py')}.txt"
-
-    def sources(self):
-        """Return the package's files that the draws depend on."""
-        return (*SAMPLE_SOURCES, self.kernel_module)
-
-    def settings(self):
-        """Return everything that determines the draws, as a JSON-ready dict."""
-        size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
-        known = {k: v for k, v in self.parameters.items() if v is not None}
-        return {"sampler": self.sampler, **known, **size}
-
-
-def compile_sources(module):
-    """Return the package's files that the compiled kernels of a module depend on."""
-    return (*(source for source in SAMPLE_SOURCES if source != "store.py"), module)
 
 
 def reduce_sources(name):
@@ -151,22 +32,6 @@ def reduce_sources(name):
 def draw_sources(name):
     """Return the package's files that an item's figure depends on."""
     return f"items/{name}.py", "items/_corners.py", "plotting.py", "kac/exact.py"
-
-
-def make_case(sampler, *, n_draws, n_replicates, seed, **parameters):
-    """Return a case with the sampler's defaults filled in."""
-    names = SAMPLERS[sampler]
-    complete = {name: parameters.get(name, DEFAULTS.get(name)) for name in names}
-    return Case(sampler, complete, n_draws, n_replicates, seed)
-
-
-def flag(name):
-    """Return the command-line flag of a parameter."""
-    return "--" + name.replace("_", "-")
-
-
-def _plain(value):
-    return str(value).removesuffix(".0").replace("_", "-")
 
 
 def read_config(*paths):

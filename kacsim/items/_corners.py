@@ -1,7 +1,7 @@
 """What Figs. 6 to 8 of the Kac paper share: recorded runs of the corner points."""
 
+from kacsim.cases import make_case
 from kacsim.items._lazy import np, plotting
-from kacsim.plan import make_case
 
 KEYS = ("n_particles", "tolerance", "n_draws", "seed")
 

@@ -2,9 +2,9 @@
 
 import math
 
+from kacsim.cases import make_case
 from kacsim.checks import RATE, STEPPED
 from kacsim.items._lazy import estimate, exact, histogram, kac, np, store, xr
-from kacsim.plan import make_case
 
 
 def velocity_case(settings, algorithm, n_particles, time_step=None, **others):

@@ -2,10 +2,10 @@
 
 import math
 
+from kacsim.cases import make_case
 from kacsim.checks import ALGORITHMS, NAMES, STEPPED
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, moments, np, plotting, store, verdict, xr
-from kacsim.plan import make_case
 
 
 def _particle_grid(settings):

@@ -2,9 +2,9 @@
 
 import math
 
+from kacsim.cases import make_case
 from kacsim.checks import MEAN_ENERGY
 from kacsim.items._lazy import np, plotting, store, xr
-from kacsim.plan import make_case
 
 NUMBERS = ("mean", "error", "spread", "least", "most")
 

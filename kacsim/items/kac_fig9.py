@@ -2,9 +2,9 @@
 
 import math
 
+from kacsim.cases import make_case
 from kacsim.items import _kac
 from kacsim.items._lazy import exact, histogram, np, plotting, store, verdict, xr
-from kacsim.plan import make_case
 
 ENERGIES = ("three_halves", "printed")
 

@@ -10,7 +10,7 @@ import pytest
 from law import compare
 
 from kacsim import kac, sampling
-from kacsim.plan import make_case
+from kacsim.cases import make_case
 from kacsim.statistics import histogram
 
 WIDTHS = (0.05, 0.1, 0.5)

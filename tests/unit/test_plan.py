@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from kacsim import cli, items, plan, sampling, schema, store
+from kacsim.cases import Case, make_case
 from kacsim.provenance import ROOT
 
 CONFIG = ROOT / "config" / "config.yaml"
@@ -23,7 +24,7 @@ def full():
 
 def case_of(sampler="kac", **parameters):
     bird = {"algorithm": "bird", "engine": "forward", "n_particles": 50, "time": 2.0}
-    return plan.make_case(sampler, **((bird if sampler == "kac" else {}) | parameters), **SIZE)
+    return make_case(sampler, **((bird if sampler == "kac" else {}) | parameters), **SIZE)
 
 
 @pytest.mark.parametrize(
@@ -71,9 +72,9 @@ def test_every_parameter_is_in_the_id(change):
 
 def test_sizes_are_in_the_id_and_the_seed_is_not():
     first = case_of()
-    assert plan.Case("kac", first.parameters, 100000, 11, 1).id != first.id
-    assert plan.Case("kac", first.parameters, 100001, 10, 1).id != first.id
-    assert plan.Case("kac", first.parameters, 100000, 10, 2).id == first.id
+    assert Case("kac", first.parameters, 100000, 11, 1).id != first.id
+    assert Case("kac", first.parameters, 100001, 10, 1).id != first.id
+    assert Case("kac", first.parameters, 100000, 10, 2).id == first.id
 
 
 def test_ids_are_unique_and_safe_file_names(full):

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from kacsim import plan, store
+from kacsim import store
+from kacsim.cases import make_case
 
 SETTINGS = {"n_particles": [3, 7], "time": 1.7, "engine": "forward", "items": {"a": {"b": 1}}}
 
@@ -176,11 +177,11 @@ def test_unreadable_files_are_named_with_what_to_do(damage, tmp_path):
 
 def test_samples_of_other_settings_are_refused(tmp_path):
     common = {"algorithm": "bird", "engine": "forward", "n_particles": 7, "n_replicates": 3}
-    case = plan.make_case("kac", time=1.7, n_draws=10, seed=1, **common)
+    case = make_case("kac", time=1.7, n_draws=10, seed=1, **common)
     path = written(tmp_path / "a.nc", settings=case.settings())
     assert store.read_sample(path, case).attrs["settings"] == json.loads(
         json.dumps(case.settings())
     )
-    other = plan.make_case("kac", time=1.8, n_draws=10, seed=2, **common)
+    other = make_case("kac", time=1.8, n_draws=10, seed=2, **common)
     with pytest.raises(store.StoreError, match=r"a\.nc: drawn with other seed, time; remove it"):
         store.read_sample(path, other)

@@ -20,7 +20,7 @@ rule draw:
     message:
         "Drawing {wildcards.item}"
     shell:
-        "{KACSIM} draw {wildcards.item} --dataset {input} --output {output}"
+        "kacsim draw {wildcards.item} --dataset {input} --output {output}"
         " > {log} 2>&1"
 
 

@@ -24,5 +24,5 @@ rule reduce:
     message:
         "Reducing {wildcards.item}"
     shell:
-        "{KACSIM} reduce {wildcards.item} --settings {params.settings:q}"
+        "kacsim reduce {wildcards.item} --settings {params.settings:q}"
         " --samples results/samples --output {output} > {log} 2>&1"

@@ -23,5 +23,5 @@ rule report:
     message:
         "Writing the report"
     shell:
-        "{KACSIM} report --items {params.wanted} --datasets results/datasets"
+        "kacsim report --items {params.wanted} --datasets results/datasets"
         " --figures results/figures --output {output} > {log} 2>&1"

@@ -16,12 +16,12 @@ rule compile:
         runtime=10,
     params:
         code=lambda wildcards: source_hash(
-            *plan.compile_sources(f"{wildcards.kernels}.py")
+            *cases.compile_sources(f"{wildcards.kernels}.py")
         ),
     message:
         "Compiling the kernels of {wildcards.kernels}"
     shell:
-        "{KACSIM} compile {wildcards.kernels}.py --output {output} > {log} 2>&1"
+        "kacsim compile {wildcards.kernels}.py --output {output} > {log} 2>&1"
 
 
 rule sample:
@@ -45,4 +45,4 @@ rule sample:
     message:
         "Sampling {wildcards.case}"
     shell:
-        "{KACSIM} sample {params.recipe} --output {output} > {log} 2>&1"
+        "kacsim sample {params.recipe} --output {output} > {log} 2>&1"

@@ -1,0 +1,128 @@
+"""Exact results on the BKW mode and on the estimators that probe it (Boltzmann paper, section II).
+
+Velocities are in units of the RMS velocity per axis c_q, time in mean collision times, unless a
+function takes `rms_velocity`. M is the Maxwellian of RMS velocity c_q, and s = c**2 / c_q**2.
+"""
+
+import math
+
+import numpy as np
+from scipy import integrate, special
+
+
+def shape(time):
+    """Return K(t) = 1 - 2/5 exp(-t/6) of eq. (7)."""
+    return 1.0 - 0.4 * np.exp(-np.asarray(time, dtype=float) / 6.0)
+
+
+def maxwellian(speed, rms_velocity=1.0):
+    """Return the density M(c) of the equilibrium, per unit of velocity cubed."""
+    s = (np.asarray(speed, dtype=float) / rms_velocity) ** 2
+    return np.exp(-0.5 * s) / (math.sqrt(2.0 * math.pi) * rms_velocity) ** 3
+
+
+def relative_density(speed, time, rms_velocity=1.0):
+    """Return f(c; t) / M(c) of the BKW mode, eq. (7)."""
+    s = (np.asarray(speed, dtype=float) / rms_velocity) ** 2
+    k = shape(time)
+    polynomial = (5.0 * k - 3.0) / k + (1.0 - k) / k**2 * s
+    return 0.5 * k**-1.5 * polynomial * np.exp(-0.5 * s * (1.0 / k - 1.0))
+
+
+def density(speed, time, rms_velocity=1.0):
+    """Return f(c; t), eq. (7); arrays broadcast.
+
+    Parameters
+    ----------
+    speed : |c| >= 0, in the unit of rms_velocity
+    time : >= 0, in mean collision times
+    rms_velocity : c_q, per axis
+    """
+    return relative_density(speed, time, rms_velocity) * maxwellian(speed, rms_velocity)
+
+
+def fraction(threshold, time, rms_velocity=1.0):
+    """Return the fraction of particles with |c| > threshold, without cancellation.
+
+    The integral of 4 pi c**2 f is Q(y) + (1 - K)/(2 K) sqrt(2/pi) y**3 exp(-y**2/2) with
+    y = c0 / (sqrt(K) c_q) and Q the Maxwellian's own fraction.
+    """
+    k = shape(time)
+    y = np.asarray(threshold, dtype=float) / rms_velocity / np.sqrt(k)
+    bell = math.sqrt(2.0 / math.pi) * np.exp(-0.5 * y**2)
+    maxwell = special.erfc(y / math.sqrt(2.0)) + bell * y
+    return maxwell + (1.0 - k) / (2.0 * k) * bell * y**3
+
+
+def mean_recursion(time, oversampling=1.0):
+    """Return the mean number of t' drawings of one estimate, eq. (15) for oversampling 1.
+
+    With n = 2 m sub-estimates behind each collision, N' = (2 m - 1) N + 1.
+    """
+    growth = 2.0 * oversampling - 1.0
+    return ((growth + 1.0) * np.exp(growth * np.asarray(time, dtype=float)) - 1.0) / growth
+
+
+def mean_square(time):
+    """Return H(t) = E_M[(f / M)**2], the second moment that no estimator can go below."""
+    k = shape(time)
+    a = 1.0 / k - 1.0
+    zero, one = (5.0 * k - 3.0) / k, (1.0 - k) / k**2
+    width = 1.0 + 2.0 * a
+    moments = zero**2 + 6.0 * zero * one / width + 15.0 * one**2 / width**2
+    return 0.25 * k**-3 * width**-1.5 * moments
+
+
+INITIAL_SECOND_MOMENT = float(mean_square(0.0))  # G(0), 1.10452
+
+
+def critical_time():
+    """Return t* = log(G(0) / (G(0) - 1)), from which the variance is infinite (2.358)."""
+    return math.log(INITIAL_SECOND_MOMENT / (INITIAL_SECOND_MOMENT - 1.0))
+
+
+def second_moment(time):
+    """Return G(t) = E_M[(F / M)**2] of Algorithm 2, infinite from `critical_time` on.
+
+    With c drawn from M the two velocities after a collision are again independent Maxwellians,
+    so that G' = -G + G**2.
+    """
+    time = np.asarray(time, dtype=float)
+    denominator = 1.0 - (1.0 - 1.0 / INITIAL_SECOND_MOMENT) * np.exp(time)
+    with np.errstate(divide="ignore"):
+        return np.where(denominator > 0.0, 1.0 / denominator, np.inf)
+
+
+def mean_inverse(oversampling):
+    """Return E[1/N] of the number N of sub-estimates, floor(m) or one more, of mean m."""
+    whole = math.floor(oversampling)
+    more = oversampling - whole
+    return (1.0 - more) / whole + more / (whole + 1.0)
+
+
+def second_moment_oversampled(time, oversampling, mean_square_of=mean_square, rate=1.0):
+    """Return G(t) when each sub-estimate is a mean of N, by its differential equation.
+
+    G' = rate (-G + (H + (G - H) E[1/N])**2): the mean of N independent estimates of second
+    moment G and squared mean H has the second moment H + (G - H)/N.
+
+    Parameters
+    ----------
+    time : float >= 0
+    oversampling : m >= 1
+    mean_square_of : H(t)
+    rate : collision rate
+    """
+    kept = mean_inverse(oversampling)
+
+    def change(t, g):
+        h = mean_square_of(t)
+        return rate * (-g + (h + (g - h) * kept) ** 2)
+
+    def explodes(_, g):
+        return g[0] - 1e6
+
+    explodes.terminal = True
+    start = [float(mean_square_of(0.0))]
+    found = integrate.solve_ivp(change, (0.0, time), start, events=explodes, rtol=1e-9, atol=1e-12)
+    return math.inf if found.status == 1 else float(found.y[0, -1])

@@ -1,0 +1,51 @@
+"""Algorithms 2 and 3 of the Boltzmann paper: the BKW mode probed by branching trees."""
+
+import numpy as np
+
+from kacsim.boltzmann.model import BKW, DEPTH, shell, speed_beyond, tree
+from kacsim.jit import kernel
+
+
+@kernel
+def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
+    """Draw realizations of F / M at one probe by Algorithm 2.
+
+    Parameters
+    ----------
+    values : float64[n], overwritten
+    nodes : int64[n], overwritten by the numbers of t' drawings; -1 marks an exceeded budget
+    speed, time : |c| / c_q and t, in mean collision times
+    oversampling : m >= 1; 1 is the published algorithm
+    max_nodes : int, budget of one realization
+    stream : uint64[4], advanced
+
+    Returns
+    -------
+    bool, False if a realization exceeded the budget (the others after it are not drawn)
+    """
+    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    for k in range(values.size):
+        values[k], nodes[k] = tree(
+            BKW, speed * speed, time, oversampling, max_nodes, stack, counts, stream
+        )
+        if nodes[k] < 0:
+            return False
+    return True
+
+
+@kernel
+def estimate_fraction(values, nodes, threshold, time, oversampling, max_nodes, stream):
+    """Draw realizations of the fraction with |c| > threshold by Algorithm 3 and eq. (19).
+
+    Parameters and result as `estimate`, with threshold = c0 / c_q.
+    """
+    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    for k in range(values.size):
+        speed, weight = speed_beyond(threshold, stream)
+        ratio, nodes[k] = tree(
+            BKW, speed * speed, time, oversampling, max_nodes, stack, counts, stream
+        )
+        values[k] = weight * shell(speed, 1.0) * ratio
+        if nodes[k] < 0:
+            return False
+    return True

@@ -1,0 +1,354 @@
+"""The public estimators: checked arguments, physical units, streamed sums."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from kacsim import checks
+from kacsim.boltzmann import bkw, bkw_tree, null_collisions, trap, trap_tree
+from kacsim.streams import new_stream
+
+CHUNK = 8192
+MAX_NODES = checks.MAX_NODES
+BREATHING = checks.BREATHING
+
+
+class BudgetError(RuntimeError):
+    """A realization whose tree has grown past the budget of nodes."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """An estimate from independent realizations.
+
+    Attributes
+    ----------
+    mean, standard_error : of the probed quantity, in its physical unit
+    variance : of one realization; estimates nothing finite where the exact one is infinite
+    mean_recursion : mean number of t' drawings of one realization
+    n_realizations : int
+    """
+
+    mean: float
+    standard_error: float
+    variance: float
+    mean_recursion: float
+    n_realizations: int
+
+
+def chunks(draw, n_realizations, stream):
+    """Yield (values, nodes) of successive chunks of realizations.
+
+    Parameters
+    ----------
+    draw : callable(values, nodes, stream) -> bool, a kernel with its parameters bound
+
+    Raises
+    ------
+    BudgetError
+        If a tree exceeds the budget of nodes.
+    """
+    for start in range(0, n_realizations, CHUNK):
+        values = np.empty(min(CHUNK, n_realizations - start))
+        nodes = np.empty(values.size, np.int64)
+        if not draw(values, nodes, stream):
+            raise BudgetError(
+                "max_nodes: a tree has grown past the budget of nodes; allow more nodes, "
+                "or probe an earlier time"
+            )
+        yield values, nodes
+
+
+def _estimate(draw, factor, n_realizations, seed, name):
+    """Return the Estimate of factor times the drawn values."""
+    total, square, nodes = 0.0, 0.0, 0
+    for values, counts in chunks(draw, n_realizations, new_stream(seed, name)):
+        total += values.sum()
+        square += (values * values).sum()
+        nodes += int(counts.sum())
+    mean = total / n_realizations
+    spread = max(0.0, square - n_realizations * mean * mean) / (n_realizations - 1)
+    return Estimate(
+        mean=float(factor * mean),
+        standard_error=float(factor * math.sqrt(spread / n_realizations)),
+        variance=float(factor * factor * spread),
+        mean_recursion=nodes / n_realizations,
+        n_realizations=n_realizations,
+    )
+
+
+def _vector(name, value):
+    """Return a float64[3]; a number stands for a vector along one axis."""
+    vector = np.asarray(value, dtype=float)
+    vector = np.array([float(vector), 0.0, 0.0]) if vector.ndim == 0 else vector
+    if vector.shape != (3,) or not np.isfinite(vector).all():
+        raise ValueError(f"{name} = {value!r}: must be a finite number or three of them")
+    return vector
+
+
+def _check(*problems):
+    checks.raise_problems(problem for group in problems for problem in group)
+
+
+def _size(n_realizations, seed, max_nodes):
+    yield from checks.count("n_realizations", n_realizations, least=2)
+    yield from checks.count("seed", seed, least=0)
+    yield from checks.count("max_nodes", max_nodes)
+
+
+def estimate_bkw(
+    velocity,
+    time,
+    *,
+    n_realizations,
+    seed,
+    rms_velocity=1.0,
+    oversampling=1.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate f(c; t) of the BKW mode by Algorithm 2 (Boltzmann paper, section II).
+
+    Parameters
+    ----------
+    velocity : float (a speed) or float64[3], in the unit of rms_velocity
+    time : float >= 0, in mean collision times
+    n_realizations : int >= 2
+    seed : int >= 0
+    rms_velocity : float > 0, c_q, per axis
+    oversampling : float >= 1, mean number of sub-estimates that replace each one; 1 as published
+    max_nodes : int, budget of one tree
+
+    Returns
+    -------
+    Estimate, per unit of velocity cubed
+
+    Raises
+    ------
+    ValueError
+        Names the argument, its value and what is allowed.
+    BudgetError
+        If a tree exceeds max_nodes.
+    """
+    speed = float(np.linalg.norm(_vector("velocity", velocity)))
+    _check(
+        checks.not_negative("time", time),
+        checks.positive("rms_velocity", rms_velocity),
+        checks.at_least("oversampling", oversampling, 1.0),
+        _size(n_realizations, seed, max_nodes),
+    )
+
+    def draw(values, nodes, stream):
+        reduced = speed / rms_velocity
+        return bkw_tree.estimate(
+            values, nodes, reduced, float(time), float(oversampling), max_nodes, stream
+        )
+
+    factor = float(bkw.maxwellian(speed, rms_velocity))
+    return _estimate(draw, factor, n_realizations, seed, "boltzmann.estimate_bkw")
+
+
+def estimate_bkw_fraction(
+    threshold,
+    time,
+    *,
+    n_realizations,
+    seed,
+    rms_velocity=1.0,
+    oversampling=1.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate the fraction of particles with |c| > threshold by Algorithm 3 and eq. (19).
+
+    Parameters, result and errors as `estimate_bkw`, with threshold >= 0 in place of velocity.
+    """
+    _check(
+        checks.not_negative("threshold", threshold),
+        checks.not_negative("time", time),
+        checks.positive("rms_velocity", rms_velocity),
+        checks.at_least("oversampling", oversampling, 1.0),
+        _size(n_realizations, seed, max_nodes),
+    )
+
+    def draw(values, nodes, stream):
+        reduced = threshold / rms_velocity
+        return bkw_tree.estimate_fraction(
+            values, nodes, reduced, float(time), float(oversampling), max_nodes, stream
+        )
+
+    return _estimate(draw, 1.0, n_realizations, seed, "boltzmann.estimate_bkw_fraction")
+
+
+def estimate_extinction(
+    time, *, n_realizations, seed, rate, initial, majorant, max_nodes=MAX_NODES
+):
+    """Estimate f(t) of f' = -rate f**2, f(0) = initial, by Algorithm 4 (section III).
+
+    Parameters
+    ----------
+    time : float >= 0
+    n_realizations, seed, max_nodes : as `estimate_bkw`
+    rate, initial : float > 0, alpha and f0
+    majorant : float > 0, the raised frequency; the variance is finite for all times from
+        rate * initial on
+
+    Returns
+    -------
+    Estimate, in the unit of initial
+
+    Raises
+    ------
+    ValueError, BudgetError
+        As `estimate_bkw`.
+    """
+    _check(
+        checks.not_negative("time", time),
+        checks.positive("rate", rate),
+        checks.positive("initial", initial),
+        checks.positive("majorant", majorant),
+        _size(n_realizations, seed, max_nodes),
+    )
+    scale = rate * initial
+
+    def draw(values, nodes, stream):
+        return null_collisions.estimate(
+            values, nodes, float(scale * time), majorant / scale, max_nodes, stream
+        )
+
+    return _estimate(draw, initial, n_realizations, seed, "boltzmann.estimate_extinction")
+
+
+def _trap_problems(physics, choices):
+    for name in ("amount", "cross_section", "angular_frequency", "rms_velocity"):
+        yield from checks.positive(name, physics[name])
+    yield from checks.breathing("breathing", physics["breathing"])
+    yield from checks.finite("start_phase", physics["start_phase"])
+    yield from checks.one_of("initial", physics["initial"], checks.STARTS)
+    yield from checks.trap_choices(**choices)
+
+
+def _trap_units(physics):
+    """Return (kernel physics, unit of length) from physical parameters."""
+    length = physics["rms_velocity"] / physics["angular_frequency"]
+    coupling = physics["amount"] * physics["cross_section"] / length**2 / physics["rms_velocity"]
+    start = 1.0 if physics["initial"] == "bkw" else 0.0
+    return (coupling, physics["breathing"], physics["start_phase"], start), length
+
+
+def estimate_trap(
+    position,
+    velocity,
+    time,
+    *,
+    n_realizations,
+    seed,
+    initial="bkw",
+    breathing=BREATHING,
+    start_phase=0.0,
+    angular_frequency=1.0,
+    rms_velocity=1.0,
+    amount=1.0,
+    cross_section=3.0,
+    majorant_factor=1.0,
+    spread=1.0,
+    anisotropy=0.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate f(r; c; t) in the harmonic trap by Algorithm 6, or 5 (sections IV and V).
+
+    Parameters
+    ----------
+    position, velocity : float (along one axis) or float64[3]
+    time : float >= 0
+    n_realizations, seed, max_nodes : as `estimate_bkw`
+    initial : "bkw" (Algorithm 6) or "breathing" (Algorithm 5: every realization is exact)
+    breathing, start_phase : eps in [0, 1) and phi0 of eq. (31)
+    angular_frequency, rms_velocity : omega and c_eq
+    amount, cross_section : n and kappa; n kappa omega**2 / c_eq**3 is 3 in the text
+    majorant_factor, spread, anisotropy : other sampling laws of the raised frequency, of c* and
+        of u'; the mean does not depend on them
+
+    Returns
+    -------
+    Estimate, amount per unit of length cubed and velocity cubed
+
+    Raises
+    ------
+    ValueError, BudgetError
+        As `estimate_bkw`.
+    """
+    place, speed = _vector("position", position), _vector("velocity", velocity)
+    physics = {
+        "initial": initial,
+        "breathing": breathing,
+        "start_phase": start_phase,
+        "angular_frequency": angular_frequency,
+        "rms_velocity": rms_velocity,
+        "amount": amount,
+        "cross_section": cross_section,
+    }
+    choices = {"majorant_factor": majorant_factor, "spread": spread, "anisotropy": anisotropy}
+    _check(
+        checks.not_negative("time", time),
+        _trap_problems(physics, choices),
+        _size(n_realizations, seed, max_nodes),
+    )
+    reduced, length = _trap_units(physics)
+    radius = float(np.linalg.norm(place)) / length
+    along = place / np.linalg.norm(place) if radius > 0.0 else np.array([1.0, 0.0, 0.0])
+    radial = float(speed @ along) / rms_velocity
+    tangential = float(np.linalg.norm(speed - (speed @ along) * along)) / rms_velocity
+    phase = float(angular_frequency * time)
+    laws = trap.MAJORANT * majorant_factor, float(spread), float(anisotropy)
+
+    def draw(values, nodes, stream):
+        probe = radius, radial, tangential, phase
+        return trap_tree.estimate(values, nodes, *probe, reduced, laws, max_nodes, stream)
+
+    state = trap.breathing_density(radius, radial, tangential, phase, breathing, start_phase)
+    factor = amount * float(state) / (length * rms_velocity) ** 3
+    return _estimate(draw, factor, n_realizations, seed, "boltzmann.estimate_trap")
+
+
+def estimate_trap_fraction(
+    radius,
+    time,
+    *,
+    n_realizations,
+    seed,
+    initial="bkw",
+    breathing=BREATHING,
+    start_phase=0.0,
+    angular_frequency=1.0,
+    rms_velocity=1.0,
+    amount=1.0,
+    cross_section=3.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate the fraction of matter with |r| > radius by Algorithm 7 and eq. (40).
+
+    Parameters, result and errors as `estimate_trap`, with radius >= 0 in place of the probe.
+    """
+    physics = {
+        "initial": initial,
+        "breathing": breathing,
+        "start_phase": start_phase,
+        "angular_frequency": angular_frequency,
+        "rms_velocity": rms_velocity,
+        "amount": amount,
+        "cross_section": cross_section,
+    }
+    _check(
+        checks.not_negative("radius", radius),
+        checks.not_negative("time", time),
+        _trap_problems(physics, checks.PUBLISHED_CHOICES),
+        _size(n_realizations, seed, max_nodes),
+    )
+    reduced, length = _trap_units(physics)
+    laws = trap.MAJORANT, 1.0, 0.0
+
+    def draw(values, nodes, stream):
+        probe = radius / length, float(angular_frequency * time)
+        return trap_tree.estimate_fraction(values, nodes, *probe, reduced, laws, max_nodes, stream)
+
+    return _estimate(draw, 1.0, n_realizations, seed, "boltzmann.estimate_trap_fraction")

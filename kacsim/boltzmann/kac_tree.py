@@ -1,0 +1,33 @@
+"""The Kac equation probed by branching trees: the Boltzmann paper's estimator for Kac's eq. (6)."""
+
+import numpy as np
+
+from kacsim.boltzmann.model import DEPTH, KAC, tree
+from kacsim.jit import kernel
+
+
+@kernel
+def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
+    """Draw realizations of f(v; t) / M(v), M the Normal(0, 3/2) of eq. (9).
+
+    Parameters
+    ----------
+    values : float64[n], overwritten
+    nodes : int64[n], overwritten by the numbers of t' drawings; -1 marks an exceeded budget
+    speed, time : |v| / sqrt(3/2) and rate * t
+    oversampling : m >= 1
+    max_nodes : int, budget of one realization
+    stream : uint64[4], advanced
+
+    Returns
+    -------
+    bool, False if a realization exceeded the budget
+    """
+    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    for k in range(values.size):
+        values[k], nodes[k] = tree(
+            KAC, speed * speed, time, oversampling, max_nodes, stack, counts, stream
+        )
+        if nodes[k] < 0:
+            return False
+    return True

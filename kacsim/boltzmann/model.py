@@ -1,0 +1,136 @@
+"""What the trees of all estimators share: leaves, collisions, and the walk over a tree.
+
+Algorithm 1 of the Boltzmann paper is the general form. Its collisions keep the product of the
+equilibrium M over the pair, so that an estimate is M at the probe times the product over the
+leaves of f(0) / M (the text's own argument for the null variance): no weight can overflow.
+
+Two laws are known: BKW, Maxwell molecules in three dimensions with the sampling laws of eq. (10),
+and KAC, the one-dimensional Kac equation. The initial conditions and the collisions are
+isotropic, so that a node needs only its energy x, in units of that of a standard normal velocity
+per axis.
+"""
+
+import math
+
+from numba import int64
+
+from kacsim.jit import inlined
+from kacsim.variates import exponential, half_normal, squared_cosine, uniform
+
+BKW, KAC = 0, 1
+DEPTH = 4096  # levels of the stack; a path of so many collisions within the time does not occur
+BKW_LEAF = 5.0 / 9.0 * (5.0 / 3.0) ** 1.5
+KAC_LEAF = 3.0 * math.sqrt(3.0)
+
+
+@inlined
+def bkw_leaf(x):
+    """Return f(c; 0) / M(c) of the BKW mode, x = c**2 / c_q**2 (Boltzmann paper, eq. 18)."""
+    return BKW_LEAF * x * math.exp(-x / 3.0)
+
+
+@inlined
+def kac_leaf(x):
+    """Return f0 / M of the Kac paper, x = v**2 / (3/2), M of eq. (9): 3 sqrt(3) x exp(-x)."""
+    return KAC_LEAF * x * math.exp(-x)
+
+
+@inlined
+def bkw_scatter(x, stream):
+    """Return (x', x'*) after an isotropic collision with a Maxwellian partner.
+
+    With T = x + x* and z the component of c* along c, x' = T/2 + mu sqrt(T**2 - 4 x z**2) / 2 and
+    x'* = T - x', mu uniform on (-1, 1).
+    """
+    z = half_normal(stream)
+    total = x + z * z + 2.0 * exponential(stream)
+    reach = 0.5 * math.sqrt(max(0.0, total * total - 4.0 * x * z * z))
+    after = 0.5 * total + (2.0 * uniform(stream) - 1.0) * reach
+    return after, total - after
+
+
+@inlined
+def kac_scatter(x, stream):
+    """Return (x', w') after a rotation with a Maxwellian partner by a uniform angle."""
+    z = half_normal(stream)
+    total = x + z * z
+    after = total * squared_cosine(stream)
+    return after, total - after
+
+
+@inlined
+def copies(oversampling, stream):
+    """Return a number of sub-estimates, floor(m) or one more, of mean m."""
+    whole = math.floor(oversampling)
+    return int64(whole) + int64(uniform(stream) < oversampling - whole)
+
+
+@inlined
+def tree(law, x, time, oversampling, max_nodes, stack, counts, stream):
+    """Return (F / M, nodes) of one realization; nodes is -1 if the budget is exceeded.
+
+    Parameters
+    ----------
+    law : BKW or KAC
+    x, time : energy of the probe, and t in mean collision times
+    oversampling : m >= 1, mean number of sub-estimates behind each side of a collision
+    max_nodes : int, budget
+    stack : float64[DEPTH, 5], per level: x'*, time, energy of the side under way, sum, first mean
+    counts : int64[DEPTH, 3], per level: side, sub-estimates left, their number
+    """
+    level, nodes = 0, 0
+    while True:
+        nodes += 1
+        time -= exponential(stream)
+        if time > 0.0:
+            if nodes >= max_nodes or level >= DEPTH:
+                return 0.0, -1
+            if law == BKW:
+                first, second = bkw_scatter(x, stream)
+            else:
+                first, second = kac_scatter(x, stream)
+            stack[level, 0], stack[level, 1], stack[level, 2] = second, time, first
+            stack[level, 3] = 0.0
+            counts[level, 0] = 0
+            counts[level, 1] = counts[level, 2] = copies(oversampling, stream)
+            level += 1
+            x = first
+            continue
+        value = bkw_leaf(x) if law == BKW else kac_leaf(x)
+        while level > 0:
+            top = level - 1
+            stack[top, 3] += value
+            counts[top, 1] -= 1
+            if counts[top, 1] > 0:
+                break
+            value = stack[top, 3] / counts[top, 2]
+            if counts[top, 0] == 0:
+                stack[top, 4], stack[top, 3] = value, 0.0
+                stack[top, 2] = stack[top, 0]
+                counts[top, 0] = 1
+                counts[top, 1] = counts[top, 2] = copies(oversampling, stream)
+                break
+            value *= stack[top, 4]
+            level -= 1
+        if level == 0:
+            return value, nodes
+        x, time = stack[level - 1, 2], stack[level - 1, 1]
+
+
+@inlined
+def speed_beyond(threshold, stream):
+    """Return (c_f, c_f**2 / p(c_f)) with c_f drawn from p of eq. (19), c_q = 1.
+
+    Its cumulative function is inverted: c_f - c0 = width (1/u - 1) with p = width / (width + x)**2.
+    """
+    width = threshold / (threshold * threshold - 2.0) if threshold > 2.0 else 2.0
+    u = 1.0 - uniform(stream)
+    beyond = width * (1.0 / u - 1.0)
+    speed = threshold + beyond
+    return speed, speed * speed * (width + beyond) ** 2 / width
+
+
+@inlined
+def shell(radius, variance):
+    """Return 4 pi times the normal density of a variance per axis at a radius."""
+    return math.sqrt(2.0 / math.pi) * variance**-1.5 * math.exp(-0.5 * radius * radius / variance)

@@ -1,0 +1,216 @@
+"""A case: one sampler with one set of parameters. Its id, its command line, its sources."""
+
+import hashlib
+import math
+import shlex
+from dataclasses import dataclass
+
+from kacsim import checks
+from kacsim.checks import BREATHING, MAX_NODES, RATE
+
+_TREE = {"oversampling": "m", "max_nodes": "budget"}
+_TRAP = {
+    "initial": "",
+    "breathing": "eps",
+    "start_phase": "phi",
+    "coupling": "coupling",
+    "majorant_factor": "majorant",
+    "spread": "spread",
+    "anisotropy": "anisotropy",
+    "max_nodes": "budget",
+}
+# sampler -> its parameters with their short forms in a case id, in the order of both
+SAMPLERS = {
+    "kac": {
+        "algorithm": "",
+        "engine": "",
+        "n_particles": "n",
+        "time": "t",
+        "time_step": "dt",
+        "collision_rate": "rate",
+        "keep_above": "above",
+    },
+    "kac_equilibrium": {"n_particles": "n", "tolerance": "eps", "energy": "e"},
+    "kac_corners": {"n_particles": "n", "tolerance": "eps"},
+    "kac_probe": {"speed": "v", "time": "t", "collision_rate": "rate", **_TREE},
+    "bkw": {"speed": "c", "time": "t", **_TREE},
+    "bkw_fraction": {"threshold": "c", "time": "t", **_TREE},
+    "bkw_tree": {"speed": "c", "time": "t"},
+    "bkw_literal": {"initial": "", "speed": "c", "time": "t"},
+    "extinction": {"majorant": "nu", "time": "t", "max_nodes": "budget"},
+    "trap": {"radius": "r", "time": "t", **_TRAP},
+    "trap_fraction": {"radius": "r", "time": "t", **_TRAP},
+}
+# Parameters that are lists: a case of the Boltzmann paper holds a grid of probes.
+LISTS = {
+    name: {"speed", "time", "threshold", "majorant", "radius"} & set(SAMPLERS[name])
+    for name in (
+        "kac_probe",
+        "bkw",
+        "bkw_fraction",
+        "bkw_literal",
+        "extinction",
+        "trap",
+        "trap_fraction",
+    )
+}
+DEFAULTS = {
+    "time_step": None,
+    "collision_rate": RATE,
+    "keep_above": None,
+    "energy": None,
+    "oversampling": 1.0,
+    "max_nodes": MAX_NODES,
+    "breathing": BREATHING,
+    "start_phase": 0.0,
+    "coupling": 3.0,
+    "majorant_factor": 1.0,
+    "spread": 1.0,
+    "anisotropy": 0.0,
+}
+
+# The sources that a draw's bits depend on; `Case.sources` adds the files of the sampler.
+SAMPLE_SOURCES = ("jit.py", "streams.py", "variates.py", "sampling.py", "store.py")
+FAMILY_SOURCES = {
+    "kac": ("kac/sampling.py", "kac/draws.py", "kac/model.py"),
+    "boltzmann": (
+        "boltzmann/sampling.py",
+        "boltzmann/estimators.py",
+        "boltzmann/model.py",
+        "boltzmann/trap.py",
+    ),
+}
+ALGORITHM_FILES = {
+    "nanbu_sequential": "kac/nanbu.py",
+    "nanbu_synchronous": "kac/nanbu.py",
+    "nanbu_babovsky": "kac/nanbu_babovsky.py",
+    "bird": "kac/bird.py",
+    "poisson": "kac/poisson.py",
+    "poisson_printed": "kac/poisson.py",
+}
+SAMPLER_FILES = {
+    "kac_equilibrium": "kac/perfect.py",
+    "kac_corners": "kac/perfect.py",
+    "kac_probe": "boltzmann/kac_tree.py",
+    "bkw": "boltzmann/bkw_tree.py",
+    "bkw_fraction": "boltzmann/bkw_tree.py",
+    "bkw_tree": "boltzmann/literal.py",
+    "bkw_literal": "boltzmann/literal.py",
+    "extinction": "boltzmann/null_collisions.py",
+    "trap": "boltzmann/trap_tree.py",
+    "trap_fraction": "boltzmann/trap_tree.py",
+}
+KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
+
+
+@dataclass(frozen=True)
+class Case:
+    """One sampler with one set of parameters, drawn n_replicates times n_draws.
+
+    Attributes
+    ----------
+    sampler : name in `SAMPLERS`
+    parameters : dict, every parameter of the sampler (see `make_case`)
+    n_draws, n_replicates : int, draws of each replicate, and replicates
+    seed : int, not part of the id
+    """
+
+    sampler: str
+    parameters: dict
+    n_draws: int
+    n_replicates: int
+    seed: int
+
+    @property
+    def id(self):
+        """Return the case's name, made from its parameters; never parsed back."""
+        tokens = [self.sampler.replace("_", "-")]
+        for name, short in SAMPLERS[self.sampler].items():
+            value = self.parameters[name]
+            if name not in DEFAULTS or value != DEFAULTS[name]:
+                tokens.append(short + _plain(value))
+        return "-".join([*tokens, f"{self.n_replicates}x{self.n_draws}"])
+
+    def arguments(self):
+        """Return the command-line words that sample this case."""
+        words = [self.sampler]
+        for name, value in self.parameters.items():
+            if name not in DEFAULTS or value != DEFAULTS[name]:
+                values = value if isinstance(value, (list, tuple)) else [value]
+                words += [flag(name), *map(str, values)]
+        for name in ("n_draws", "n_replicates", "seed"):
+            words += [flag(name), str(getattr(self, name))]
+        return shlex.join(words)
+
+    def priority(self):
+        """Return a rank that starts the longest cases first: the logarithm of their work."""
+        p = self.parameters
+        work = float(self.n_draws * self.n_replicates)
+        if self.sampler == "kac_equilibrium":
+            work *= 20.0 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
+        elif self.sampler in LISTS:
+            growth = 2.0 * p.get("oversampling", 1.0) - 1.0
+            probes = math.prod(len(p[name]) for name in LISTS[self.sampler]) / len(p["time"])
+            work *= probes * sum(math.exp(min(30.0, growth * time)) for time in p["time"])
+        else:
+            work *= p["n_particles"] if p.get("engine") == "forward" else 6.0
+        return round(10.0 * math.log2(max(1.0, work)))
+
+    def problems(self):
+        """Return the list of what is wrong with the parameters and the size."""
+        size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
+        check = getattr(checks, self.sampler)
+        return [*check(**self.parameters), *checks.amount(**size)]
+
+    @property
+    def kernel_module(self):
+        """Return the package's file that holds the sampler's kernels."""
+        return SAMPLER_FILES.get(self.sampler) or ALGORITHM_FILES[self.parameters["algorithm"]]
+
+    def compiled(self):
+        """Return the file that stands for the sampler's compiled kernels."""
+        return f"results/kernels/{self.kernel_module.removesuffix('.py')}.txt"
+
+    def sources(self):
+        """Return the package's files that the draws depend on."""
+        return (*SAMPLE_SOURCES, *FAMILY_SOURCES[self.family], self.kernel_module)
+
+    @property
+    def family(self):
+        """Return the package's folder that holds the sampler."""
+        return self.kernel_module.partition("/")[0]
+
+    def settings(self):
+        """Return everything that determines the draws, as a JSON-ready dict."""
+        size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
+        known = {k: v for k, v in self.parameters.items() if v is not None}
+        return {"sampler": self.sampler, **known, **size}
+
+
+def make_case(sampler, *, n_draws, n_replicates, seed, **parameters):
+    """Return a case with the sampler's defaults filled in."""
+    names = SAMPLERS[sampler]
+    complete = {name: parameters.get(name, DEFAULTS.get(name)) for name in names}
+    return Case(sampler, complete, n_draws, n_replicates, seed)
+
+
+def flag(name):
+    """Return the command-line flag of a parameter."""
+    return "--" + name.replace("_", "-")
+
+
+def _plain(value):
+    """Return a value as part of an id; of a list its ends, its length and a hash."""
+    if isinstance(value, (list, tuple)):
+        if len(value) == 1:
+            return _plain(value[0])
+        digest = hashlib.sha256(repr([float(one) for one in value]).encode()).hexdigest()[:8]
+        return f"{_plain(value[0])}to{_plain(value[-1])}x{len(value)}.{digest}"
+    text = f"{value:.6g}" if isinstance(value, float) and len(str(value)) > 12 else str(value)
+    return text.removesuffix(".0").replace("_", "-")
+
+
+def compile_sources(module):
+    """Return the package's files that the compiled kernels of a module depend on."""
+    family = FAMILY_SOURCES[module.partition("/")[0]]
+    return (*(source for source in SAMPLE_SOURCES if source != "store.py"), *family, module)

@@ -1,0 +1,217 @@
+"""Samplers of the Kac paper: replicates streamed into counts, moments and a few raw values.
+
+Memory does not grow with the number of draws: a kernel fills a buffer of `CHUNK` draws, the
+buffer is added to the sums, and is filled again.
+"""
+
+import math
+
+import numpy as np
+from numba import int64
+
+from kacsim.checks import MEAN_ENERGY
+from kacsim.jit import kernel
+from kacsim.kac import draws, perfect
+from kacsim.statistics.histogram import FINE_BINS, FINE_WIDTH, LIMIT, fine_edges
+from kacsim.store import described
+from kacsim.streams import new_stream
+
+CHUNK = 8192
+ORDERS = (2, 4, 6, 8)
+KEPT = 100_000
+
+
+@kernel
+def accumulate(values, counts, sums, kept, n_kept, keep_above):
+    """Add draws to the sums of one replicate.
+
+    Parameters
+    ----------
+    values : float64[n], draws
+    counts : int64[FINE_BINS + 2], fine histogram with two tails, modified in place
+    sums : float64[4], sums of v**2, v**4, v**6, v**8, modified in place
+    kept : float64[m], raw values above `keep_above`, filled from place n_kept on
+    n_kept, keep_above : int, float
+
+    Returns
+    -------
+    int, the new number of kept values
+    """
+    scale = 1.0 / FINE_WIDTH
+    for v in values:
+        place = int64(math.floor((min(max(v, -2.0 * LIMIT), 2.0 * LIMIT) + LIMIT) * scale)) + 1
+        counts[min(max(place, 0), FINE_BINS + 1)] += 1
+        square = v * v
+        sums[0] += square
+        sums[1] += square**2
+        sums[2] += square**3
+        sums[3] += square**4
+        if n_kept < kept.size and v > keep_above:
+            kept[n_kept] = v
+            n_kept += 1
+    return n_kept
+
+
+def _velocity_sums(case, fill, progress):
+    """Stream all replicates through `fill(velocities, replicate, stream)`; return variables."""
+    p = case.parameters
+    counts = np.zeros((case.n_replicates, FINE_BINS + 2), np.int64)
+    sums = np.zeros((case.n_replicates, len(ORDERS)))
+    keep_above = p.get("keep_above")
+    kept = np.empty(min(KEPT, case.n_draws * case.n_replicates))
+    n_kept, done = 0, 0
+    for replicate in range(case.n_replicates):
+        stream = new_stream(case.seed, case.id, replicate)
+        for start in range(0, case.n_draws, CHUNK):
+            velocities = np.empty(min(CHUNK, case.n_draws - start))
+            fill(velocities, replicate, stream)
+            threshold = -math.inf if keep_above is None else keep_above
+            n_kept = accumulate(
+                velocities, counts[replicate], sums[replicate], kept, n_kept, threshold
+            )
+            done += velocities.size
+            progress(done)
+    sums /= case.n_draws
+    return {
+        "counts": described(counts, ("replicate", "bin"), "draws per bin, first and last: tails"),
+        "moment": described(sums, ("replicate", "order"), "mean of v_1 to the power"),
+        "kept_velocity": described(
+            kept[:n_kept], ("kept",), "first values of v_1 above the keeping threshold"
+        ),
+        "order": described(ORDERS, ("order",), "power"),
+        "edge": described(fine_edges(), ("edge",), "bin edges of v_1"),
+    }
+
+
+def sample_kac(case, progress):
+    """Draw v_1(t) by one algorithm on one engine (Kac paper, section 4).
+
+    Returns
+    -------
+    dict of counts[replicate, bin], moment[replicate, order], kept_velocity[kept],
+    collisions and own_collisions[replicate] (means per draw), own_variance[replicate]
+    """
+    draw_kernel, arguments = draws.kernel_of(case.parameters)
+    collisions = np.zeros(case.n_replicates)
+    own_sums = np.zeros((2, case.n_replicates))
+
+    def fill(velocities, replicate, stream):
+        own = np.empty(velocities.size, np.int64)
+        collisions[replicate] += draw_kernel(velocities, own, *arguments, stream)
+        own_sums[:, replicate] += own.sum(), (own * own).sum()
+
+    variables = _velocity_sums(case, fill, progress)
+    mean, square = own_sums / case.n_draws
+    dims = ("replicate",)
+    return variables | {
+        "collisions": described(collisions / case.n_draws, dims, "collisions simulated per draw"),
+        "own_collisions": described(mean, dims, "mean collisions of particle 1"),
+        "own_variance": described(
+            square - mean**2, dims, "variance of the collisions of particle 1"
+        ),
+    }
+
+
+def sample_kac_equilibrium(case, progress):
+    """Draw epsilon-perfect values of v_1 with their coupling times (Kac paper, section 5).
+
+    Returns
+    -------
+    dict of as `sample_kac`, with coupling_time[draw] in place of collisions
+    """
+    p = case.parameters
+    n_particles = p["n_particles"]
+    energy = MEAN_ENERGY * n_particles if p["energy"] is None else float(p["energy"])
+    total = case.n_draws * case.n_replicates
+    kept = np.empty(min(KEPT, total), np.int64)
+    lowest = np.full(case.n_replicates, np.iinfo(np.int64).max)
+    highest = np.zeros(case.n_replicates, np.int64)
+    sums = np.zeros((2, case.n_replicates))
+    filled = 0
+
+    def fill(velocities, replicate, stream):
+        nonlocal filled
+        times = np.empty(velocities.size, np.int64)
+        perfect.couple(velocities, times, n_particles, energy, p["tolerance"], stream)
+        lowest[replicate] = min(lowest[replicate], times.min())
+        highest[replicate] = max(highest[replicate], times.max())
+        sums[:, replicate] += times.sum(), (times.astype(float) ** 2).sum()
+        room = min(times.size, kept.size - filled)
+        kept[filled : filled + room] = times[:room]
+        filled += room
+
+    variables = _velocity_sums(case, fill, progress)
+    mean, square = sums / case.n_draws
+    dims, units = ("replicate",), "steps"
+    return variables | {
+        "coupling_time": described(kept, ("draw",), "coupling time of the first draws", units),
+        "coupling_mean": described(mean, dims, "mean coupling time", units),
+        "coupling_variance": described(
+            square - mean**2, dims, "variance of the coupling time", "steps2"
+        ),
+        "coupling_min": described(lowest, dims, "smallest coupling time", units),
+        "coupling_max": described(highest, dims, "largest coupling time", units),
+    }
+
+
+def sample_kac_corners(case, progress):
+    """Record epsilon-perfect runs from time -n to 0, every corner at every step (Figs. 6 to 8).
+
+    Returns
+    -------
+    dict of corner[step, corner, particle] of the first run from its coupling time -n to
+    0, its inputs first, second, squared_sine[step]; for all runs diameter[run, step], forward
+    from step 0, nan after coupling, and same_pair[run, step]
+    """
+    p = case.parameters
+    n = p["n_particles"]
+    energy = MEAN_ENERGY * n
+    runs = [_one_run(n, energy, p["tolerance"], case, k) for k in range(case.n_draws)]
+    progress(case.n_draws)
+    longest = max(run["diameter"].size for run in runs)
+    diameter = np.full((len(runs), longest), np.nan)
+    same = np.zeros((len(runs), longest), bool)
+    for k, one in enumerate(runs):
+        diameter[k, : one["diameter"].size] = one["diameter"]
+        same[k, : one["same"].size] = one["same"]
+    head = runs[0]
+    return {
+        "corner": described(
+            head["corner"], ("time", "corner_index", "particle"), "corner points' velocities"
+        ),
+        "first": described(head["first"], ("step",), "index p of the pair"),
+        "second": described(head["second"], ("step",), "index q of the pair"),
+        "squared_sine": described(head["part"], ("step",), "sin(theta) squared"),
+        "diameter": described(diameter, ("run", "after"), "largest distance D after a step"),
+        "same_pair": described(
+            same.astype(np.int8), ("run", "after"), "1 if the step repeats the pair before it"
+        ),
+    }
+
+
+def _one_run(n, energy, tolerance, case, index):
+    """Return one coupled run: corner points at times -n..0, D after each step, repeated pairs."""
+    velocities, times = np.empty(1), np.empty(1, np.int64)
+    perfect.couple(velocities, times, n, energy, tolerance, new_stream(case.seed, case.id, index))
+    steps = int(times[0])
+    inputs = perfect.record(n, steps, new_stream(case.seed, case.id, index))
+    first, second, part = (values[::-1].copy() for values in inputs)
+    path = perfect.trajectory(n, energy, first, second, part)
+    pairs = np.sort(np.stack([first, second]), axis=0)
+    same = np.r_[False, (pairs[:, 1:] == pairs[:, :-1]).all(axis=0)]
+    diameter = np.array([perfect.diameter(points) for points in path[1:]])
+    return {
+        "corner": path,
+        "first": first,
+        "second": second,
+        "part": part,
+        "diameter": diameter,
+        "same": same,
+    }
+
+
+SAMPLERS = {
+    "kac": sample_kac,
+    "kac_equilibrium": sample_kac_equilibrium,
+    "kac_corners": sample_kac_corners,
+}

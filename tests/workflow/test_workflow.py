@@ -73,8 +73,8 @@ def test_changing_a_setting_changes_only_its_item(project):
     both = ("--configfile", "config/smoke.yaml", "more.yaml")
     again = project.samples_planned(*both)
     assert again == {
-        "kac-bird-forward-n5-t2-3x2001",
-        "kac-poisson-forward-n5-t2-3x2001",
+        "kac-bird-forward-n10-t2-3x2001",
+        "kac-poisson-forward-n10-t2-3x2001",
     }
 
 

@@ -12,8 +12,9 @@ import time
 
 import numpy as np
 
+from kacsim.boltzmann import bkw_tree, literal, literal_trap, trap, trap_tree
 from kacsim.cases import make_case
-from kacsim.checks import MEAN_ENERGY, RATE
+from kacsim.checks import BREATHING, MEAN_ENERGY, RATE
 from kacsim.jit import kernel
 from kacsim.kac import bird, perfect, poisson
 from kacsim.provenance import versions
@@ -45,13 +46,13 @@ def obvious_bird(velocities, n_particles, n_collisions):
 
 
 def seconds_per_draw(call, n_draws, repeats):
-    """Return the median time of call(n_draws) over n_draws, after one call that compiles."""
+    """Return the median processor time of call(n_draws) per draw, after a call that compiles."""
     call(2)
     times = []
     for _ in range(repeats):
-        start = time.perf_counter()
+        start = time.process_time()
         call(n_draws)
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     return statistics.median(times) / n_draws
 
 
@@ -61,6 +62,8 @@ def run(repeats):
     _bird(repeats)
     _ancestral(repeats)
     _perfect(repeats)
+    _bkw_tree(repeats)
+    _trap_tree(repeats)
     _memory()
 
 
@@ -143,6 +146,54 @@ def _perfect(repeats):
     print(
         f"epsilon-perfect, N = 50: {quick * 1e3:.3f} ms per draw (goal 0.15), literal "
         f"{slow * 1e3:.0f} ms: ratio {slow / quick:.0f} (goal 1000)"
+    )
+
+
+def _nodes(call, n_draws, repeats):
+    """Return (seconds per node, nodes per realization) of call(values, nodes)."""
+    counts = []
+
+    def one(n):
+        nodes = np.empty(n, np.int64)
+        call(np.empty(n), nodes)
+        counts.append(nodes.mean())
+
+    seconds = seconds_per_draw(one, n_draws, repeats)
+    mean = statistics.median(counts[1:])
+    return seconds / mean, mean
+
+
+def _bkw_tree(repeats):
+    """Algorithm 2 against its plain recursion with vectors and printed weights."""
+    stream, budget = new_stream(1, "benchmark"), 10**7
+    fast, nodes = _nodes(
+        lambda v, n: bkw_tree.estimate(v, n, 2.0, TIME, 1.0, 0.0, budget, stream), 50_000, repeats
+    )
+    slow, _ = _nodes(lambda v, n: literal.estimate(v, n, 2.0, TIME, False, stream), 20_000, repeats)
+    print(
+        f"BKW tree, {nodes:.1f} nodes: {fast * 1e9:.1f} ns per node (goal 45), plain recursion "
+        f"{slow * 1e9:.1f}: ratio {slow / fast:.1f}"
+    )
+
+
+def _trap_tree(repeats):
+    """Algorithm 6 against its plain recursion, at the centre after half a turn."""
+    stream, budget, time_, eps = new_stream(1, "benchmark"), 10**7, 3.0, BREATHING
+    physics, laws = (3.0, eps, 0.0, 1.0), (trap.MAJORANT, 1.0, 0.0)
+    fast, nodes = _nodes(
+        lambda v, n: trap_tree.estimate(v, n, 0.0, 0.0, 0.0, time_, physics, laws, budget, stream),
+        20_000,
+        repeats,
+    )
+
+    slow, _ = _nodes(
+        lambda v, n: literal_trap.estimate(v, n, 0.0, 0.0, time_, 3.0, eps, False, stream),
+        5_000,
+        repeats,
+    )
+    print(
+        f"trap tree, {nodes:.1f} nodes: {fast * 1e9:.1f} ns per node (goal 120), plain recursion "
+        f"{slow * 1e9:.1f}: ratio {slow / fast:.1f}"
     )
 
 

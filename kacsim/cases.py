@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from kacsim import checks
 from kacsim.checks import BREATHING, MAX_NODES, RATE
 
-_TREE = {"oversampling": "m", "max_nodes": "budget"}
+_TREE = {"oversampling": "m", "onset": "from", "max_nodes": "budget"}
 _TRAP = {
     "initial": "",
     "breathing": "eps",
@@ -40,10 +40,20 @@ SAMPLERS = {
     "extinction": {"majorant": "nu", "time": "t", "max_nodes": "budget"},
     "trap": {"radius": "r", "time": "t", **_TRAP},
     "trap_fraction": {"radius": "r", "time": "t", **_TRAP},
+    "trap_energy": {"radius": "r", "time": "t", **_TRAP},
+    "trap_literal": {
+        "initial": "",
+        "radius": "r",
+        "time": "t",
+        "breathing": "eps",
+        "coupling": "coupling",
+    },
+    "bkw_moment": {"time": "t", **_TREE},
 }
 # Parameters that are lists: a case of the Boltzmann paper holds a grid of probes.
 LISTS = {
     name: {"speed", "time", "threshold", "majorant", "radius"} & set(SAMPLERS[name])
+    | ({"oversampling"} if name == "bkw_moment" else set())
     for name in (
         "kac_probe",
         "bkw",
@@ -52,6 +62,9 @@ LISTS = {
         "extinction",
         "trap",
         "trap_fraction",
+        "trap_energy",
+        "trap_literal",
+        "bkw_moment",
     )
 }
 DEFAULTS = {
@@ -60,7 +73,9 @@ DEFAULTS = {
     "keep_above": None,
     "energy": None,
     "oversampling": 1.0,
+    "onset": 0.0,
     "max_nodes": MAX_NODES,
+    "initial": "bkw",
     "breathing": BREATHING,
     "start_phase": 0.0,
     "coupling": 3.0,
@@ -78,6 +93,7 @@ FAMILY_SOURCES = {
         "boltzmann/estimators.py",
         "boltzmann/model.py",
         "boltzmann/trap.py",
+        "boltzmann/literal.py",
     ),
 }
 ALGORITHM_FILES = {
@@ -99,6 +115,9 @@ SAMPLER_FILES = {
     "extinction": "boltzmann/null_collisions.py",
     "trap": "boltzmann/trap_tree.py",
     "trap_fraction": "boltzmann/trap_tree.py",
+    "trap_energy": "boltzmann/trap_tree.py",
+    "trap_literal": "boltzmann/literal_trap.py",
+    "bkw_moment": "boltzmann/bkw_tree.py",
 }
 KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
 
@@ -149,7 +168,8 @@ class Case:
         if self.sampler == "kac_equilibrium":
             work *= 20.0 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
         elif self.sampler in LISTS:
-            growth = 2.0 * p.get("oversampling", 1.0) - 1.0
+            many = p.get("oversampling", 1.0)
+            growth = 2.0 * (max(many) if isinstance(many, (list, tuple)) else many) - 1.0
             probes = math.prod(len(p[name]) for name in LISTS[self.sampler]) / len(p["time"])
             work *= probes * sum(math.exp(min(30.0, growth * time)) for time in p["time"])
         else:

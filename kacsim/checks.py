@@ -30,6 +30,10 @@ STARTS = ("bkw", "breathing")
 PUBLISHED_CHOICES = {"majorant_factor": 1.0, "spread": 1.0, "anisotropy": 0.0}
 
 
+class BudgetError(RuntimeError):
+    """A realization whose tree has grown past the budget of nodes."""
+
+
 @dataclass(frozen=True)
 class Problem:
     """A wrong value: ``name = value: sentence``."""
@@ -196,7 +200,7 @@ def amount(*, n_draws, n_replicates, seed, **_):
     yield from count("seed", seed, least=0)
 
 
-def _probes(*, max_nodes=MAX_NODES, oversampling=1.0, **axes):
+def _probes(*, max_nodes=MAX_NODES, oversampling=1.0, onset=0.0, **axes):
     """Yield the problems of a grid of probes of the Boltzmann paper."""
     for name, values in axes.items():
         if not isinstance(values, (list, tuple)) or not values:
@@ -205,7 +209,9 @@ def _probes(*, max_nodes=MAX_NODES, oversampling=1.0, **axes):
         for value in values:
             yield from (positive if name == "majorant" else not_negative)(name, value)
     yield from count("max_nodes", max_nodes)
-    yield from at_least("oversampling", oversampling, 1.0)
+    for value in oversampling if isinstance(oversampling, (list, tuple)) else [oversampling]:
+        yield from at_least("oversampling", value, 1.0)
+    yield from not_negative("onset", onset)
 
 
 def kac_probe(*, speed, time, collision_rate=RATE, **tree):
@@ -214,7 +220,7 @@ def kac_probe(*, speed, time, collision_rate=RATE, **tree):
     yield from _probes(speed=speed, time=time, **tree)
 
 
-bkw = bkw_fraction = extinction = _probes
+bkw = bkw_fraction = bkw_moment = extinction = _probes
 
 
 def bkw_literal(*, initial, speed, time):
@@ -240,4 +246,12 @@ def trap(*, radius, time, initial, max_nodes, coupling, start_phase, **others):
     yield from _probes(radius=radius, time=time, max_nodes=max_nodes)
 
 
-trap_fraction = trap
+trap_fraction = trap_energy = trap
+
+
+def trap_literal(*, radius, time, initial, coupling, **state):
+    """Yield the problems of the literal Algorithms 5 and 6."""
+    yield from breathing("breathing", state["breathing"])
+    yield from one_of("initial", initial, STARTS)
+    yield from positive("coupling", coupling)
+    yield from _probes(radius=radius, time=time)

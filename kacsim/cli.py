@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from kacsim import cases, plan
-from kacsim.checks import Problem
+from kacsim.checks import BudgetError, Problem
 
 USAGE_ERROR = 2
 
@@ -20,7 +20,7 @@ def main(argv=None):
     arguments = _parser().parse_args(argv)
     try:
         arguments.run(arguments)
-    except (plan.PlanError, StoreError) as error:
+    except (plan.PlanError, StoreError, BudgetError) as error:
         print(error, file=sys.stderr)
         return USAGE_ERROR
     return 0

@@ -22,16 +22,24 @@ class PlanError(Exception):
     """Everything that is wrong with a configuration, one line each."""
 
 
+def _shared_items():
+    """Return the helper modules of the items; an edit makes all datasets and figures again."""
+    folder = Path(items.__file__).parent
+    return tuple(f"items/{path.name}" for path in sorted(folder.glob("_[a-z]*.py")))
+
+
 def reduce_sources(name):
     """Return the package's files that an item's dataset depends on."""
     used = (name, *getattr(items.load(name), "USES", ()))
-    shared = ("items/_kac.py", "items/_corners.py", "kac/exact.py", "kac/moments.py", "statistics")
-    return (*(f"items/{one}.py" for one in used), *shared, "store.py")
+    exact = ("kac/exact.py", "kac/moments.py", "kac/ancestors.py")
+    exact += ("boltzmann/bkw.py", "boltzmann/extinction.py", "boltzmann/trap.py")
+    own = tuple(f"items/{one}.py" for one in used)
+    return (*own, *_shared_items(), *exact, "statistics", "store.py")
 
 
 def draw_sources(name):
     """Return the package's files that an item's figure depends on."""
-    return f"items/{name}.py", "items/_corners.py", "plotting.py", "kac/exact.py"
+    return f"items/{name}.py", *_shared_items(), "plotting.py", "kac/exact.py", "boltzmann/bkw.py"
 
 
 def read_config(*paths):

@@ -27,7 +27,7 @@ STYLE = {
     "savefig.dpi": 200,
     "svg.hashsalt": "kacsim",
     "svg.fonttype": "path",
-    "pdf.fonttype": 42,
+    "pdf.fonttype": 3,
 }
 PANEL_WIDTH, PANEL_HEIGHT = 3.5, 2.7
 SINGLE_WIDTH = 5.0

@@ -1,8 +1,8 @@
 """The report: datasets, figures and texts become one self-contained HTML page.
 
-Every number on the page comes from a dataset or from reports/published.yaml; words come from the
-template and from captions.yaml (one entry per item) and errata.yaml (one entry per text). No time,
-no random id and no network address: the same inputs give the same bytes.
+Every number on the page comes from a dataset, from reports/published.yaml or from a formula; words
+come from the template, from captions.yaml (one entry per item) and from errata.yaml (one entry per
+text). No time, no random id and no network address: the same inputs give the same bytes.
 """
 
 import functools
@@ -21,6 +21,7 @@ from markupsafe import Markup
 
 from kacsim import store
 from kacsim.items import published
+from kacsim.items._lazy import bkw
 from kacsim.provenance import ROOT
 
 TEXTS = ROOT / "reports"
@@ -74,6 +75,7 @@ def _environment():
     trim = {"trim_blocks": True, "lstrip_blocks": True}
     env = jinja2.Environment(loader=loader, autoescape=True, undefined=undefined, **trim)
     env.globals |= {"number": number, "listed": listed, "pm": pm, "signs": SIGNS}
+    env.globals["critical_time"] = bkw.critical_time
     return env
 
 

@@ -34,7 +34,7 @@ def _tiny_cases():
         if sampler != "kac":
             probes = {"n_particles": 3, "tolerance": 0.1, "initial": "bkw"}
             lists = LISTS.get(sampler, ())
-            for name in ("speed", "time", "threshold", "majorant", "radius"):
+            for name in ("speed", "time", "threshold", "majorant", "radius", "oversampling"):
                 probes[name] = [1.0] if name in lists else 1.0
             yield make_case(sampler, **probes, **size)
 

@@ -7,7 +7,7 @@ function takes `rms_velocity`. M is the Maxwellian of RMS velocity c_q, and s = 
 import math
 
 import numpy as np
-from scipy import integrate, special
+from scipy import integrate, optimize, special
 
 
 def shape(time):
@@ -54,13 +54,16 @@ def fraction(threshold, time, rms_velocity=1.0):
     return maxwell + (1.0 - k) / (2.0 * k) * bell * y**3
 
 
-def mean_recursion(time, oversampling=1.0):
+def mean_recursion(time, oversampling=1.0, onset=0.0):
     """Return the mean number of t' drawings of one estimate, eq. (15) for oversampling 1.
 
-    With n = 2 m sub-estimates behind each collision, N' = (2 m - 1) N + 1.
+    With 2 m sub-estimates behind each collision, N' = (2 m - 1) N + 1 and N(0) = 1.
     """
+    time = np.asarray(time, dtype=float)
     growth = 2.0 * oversampling - 1.0
-    return ((growth + 1.0) * np.exp(growth * np.asarray(time, dtype=float)) - 1.0) / growth
+    early = 2.0 * np.exp(np.minimum(onset, time)) - 1.0
+    late = np.exp(growth * np.maximum(0.0, time - onset))
+    return late * early + (late - 1.0) / growth
 
 
 def mean_square(time):
@@ -100,29 +103,53 @@ def mean_inverse(oversampling):
     return (1.0 - more) / whole + more / (whole + 1.0)
 
 
-def second_moment_oversampled(time, oversampling, mean_square_of=mean_square, rate=1.0):
+def power_moment(power):
+    """Return E_M[h**p] of h = f(.; 0) / M, for p > -3/2."""
+    gammas = math.gamma(power + 1.5) / math.gamma(1.5)
+    spread = (1.0 + 2.0 * power / 3.0) ** -(power + 1.5)
+    return (5.0 / 9.0 * (5.0 / 3.0) ** 1.5 * 2.0) ** power * gammas * spread
+
+
+def tail_index(time):
+    """Return the largest p for which E_M[(F / M)**p] of Algorithm 2 is finite at a time.
+
+    Every power of the product over the leaves obeys G_p' = -G_p + G_p**2, so that it diverges at
+    log(G_p(0) / (G_p(0) - 1)); the index is 2 at `critical_time`.
+    """
+    threshold = 1.0 / -math.expm1(-time)
+    return optimize.brentq(lambda p: power_moment(p) - threshold, 1.0 + 1e-9, 60.0)
+
+
+def second_moment_oversampled(time, oversampling, onset=0.0):
     """Return G(t) when each sub-estimate is a mean of N, by its differential equation.
 
-    G' = rate (-G + (H + (G - H) E[1/N])**2): the mean of N independent estimates of second
-    moment G and squared mean H has the second moment H + (G - H)/N.
+    G' = -G + (H + (G - H) E[1/N])**2: the mean of N independent estimates of second moment G and
+    mean square H has the second moment H + (G - H)/N.
 
     Parameters
     ----------
     time : float >= 0
-    oversampling : m >= 1
-    mean_square_of : H(t)
-    rate : collision rate
+    oversampling, onset : m >= 1, used by collisions later than onset
     """
-    kept = mean_inverse(oversampling)
+    moment = INITIAL_SECOND_MOMENT
+    for start, stop, m in ((0.0, min(onset, time), 1.0), (onset, time, oversampling)):
+        if stop > start and math.isfinite(moment):
+            moment = _grow(moment, start, stop, mean_inverse(m))
+    return moment
+
+
+def _grow(moment, start, stop, kept):
+    """Integrate G' over a span; infinite if G explodes."""
 
     def change(t, g):
-        h = mean_square_of(t)
-        return rate * (-g + (h + (g - h) * kept) ** 2)
+        h = mean_square(t)
+        return -g + (h + (g - h) * kept) ** 2
 
     def explodes(_, g):
         return g[0] - 1e6
 
     explodes.terminal = True
-    start = [float(mean_square_of(0.0))]
-    found = integrate.solve_ivp(change, (0.0, time), start, events=explodes, rtol=1e-9, atol=1e-12)
+    found = integrate.solve_ivp(
+        change, (start, stop), [moment], events=explodes, rtol=1e-9, atol=1e-12
+    )
     return math.inf if found.status == 1 else float(found.y[0, -1])

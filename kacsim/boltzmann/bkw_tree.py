@@ -4,10 +4,11 @@ import numpy as np
 
 from kacsim.boltzmann.model import BKW, DEPTH, shell, speed_beyond, tree
 from kacsim.jit import kernel
+from kacsim.variates import exponential, half_normal
 
 
 @kernel
-def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
+def estimate(values, nodes, speed, time, oversampling, onset, max_nodes, stream):
     """Draw realizations of F / M at one probe by Algorithm 2.
 
     Parameters
@@ -16,6 +17,7 @@ def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
     nodes : int64[n], overwritten by the numbers of t' drawings; -1 marks an exceeded budget
     speed, time : |c| / c_q and t, in mean collision times
     oversampling : m >= 1; 1 is the published algorithm
+    onset : time from which on collisions are oversampled
     max_nodes : int, budget of one realization
     stream : uint64[4], advanced
 
@@ -26,7 +28,7 @@ def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
     stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
     for k in range(values.size):
         values[k], nodes[k] = tree(
-            BKW, speed * speed, time, oversampling, max_nodes, stack, counts, stream
+            BKW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         if nodes[k] < 0:
             return False
@@ -34,7 +36,7 @@ def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
 
 
 @kernel
-def estimate_fraction(values, nodes, threshold, time, oversampling, max_nodes, stream):
+def estimate_fraction(values, nodes, threshold, time, oversampling, onset, max_nodes, stream):
     """Draw realizations of the fraction with |c| > threshold by Algorithm 3 and eq. (19).
 
     Parameters and result as `estimate`, with threshold = c0 / c_q.
@@ -43,9 +45,27 @@ def estimate_fraction(values, nodes, threshold, time, oversampling, max_nodes, s
     for k in range(values.size):
         speed, weight = speed_beyond(threshold, stream)
         ratio, nodes[k] = tree(
-            BKW, speed * speed, time, oversampling, max_nodes, stack, counts, stream
+            BKW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         values[k] = weight * shell(speed, 1.0) * ratio
+        if nodes[k] < 0:
+            return False
+    return True
+
+
+@kernel
+def estimate_moment(values, nodes, oversampling, time, onset, max_nodes, stream):
+    """Draw realizations of F / M with c drawn from M: mean 1, mean square G(t).
+
+    Parameters and result as `estimate`.
+    """
+    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    for k in range(values.size):
+        z = half_normal(stream)
+        square = z * z + 2.0 * exponential(stream)
+        values[k], nodes[k] = tree(
+            BKW, square, time, oversampling, onset, max_nodes, stack, counts, stream
+        )
         if nodes[k] < 0:
             return False
     return True

@@ -12,10 +12,7 @@ from kacsim.streams import new_stream
 CHUNK = 8192
 MAX_NODES = checks.MAX_NODES
 BREATHING = checks.BREATHING
-
-
-class BudgetError(RuntimeError):
-    """A realization whose tree has grown past the budget of nodes."""
+BudgetError = checks.BudgetError
 
 
 @dataclass(frozen=True)
@@ -60,7 +57,7 @@ def chunks(draw, n_realizations, stream):
         yield values, nodes
 
 
-def _estimate(draw, factor, n_realizations, seed, name):
+def estimate_from(draw, factor, n_realizations, seed, name):
     """Return the Estimate of factor times the drawn values."""
     total, square, nodes = 0.0, 0.0, 0
     for values, counts in chunks(draw, n_realizations, new_stream(seed, name)):
@@ -87,11 +84,13 @@ def _vector(name, value):
     return vector
 
 
-def _check(*problems):
+def check(*problems):
+    """Raise ValueError with the first problem of several groups."""
     checks.raise_problems(problem for group in problems for problem in group)
 
 
-def _size(n_realizations, seed, max_nodes):
+def sizes(n_realizations, seed, max_nodes):
+    """Yield the problems of the size, the seed and the budget of an estimate."""
     yield from checks.count("n_realizations", n_realizations, least=2)
     yield from checks.count("seed", seed, least=0)
     yield from checks.count("max_nodes", max_nodes)
@@ -105,6 +104,7 @@ def estimate_bkw(
     seed,
     rms_velocity=1.0,
     oversampling=1.0,
+    onset=0.0,
     max_nodes=MAX_NODES,
 ):
     """Estimate f(c; t) of the BKW mode by Algorithm 2 (Boltzmann paper, section II).
@@ -117,6 +117,7 @@ def estimate_bkw(
     seed : int >= 0
     rms_velocity : float > 0, c_q, per axis
     oversampling : float >= 1, mean number of sub-estimates that replace each one; 1 as published
+    onset : float >= 0, collisions before this time are not oversampled
     max_nodes : int, budget of one tree
 
     Returns
@@ -131,21 +132,29 @@ def estimate_bkw(
         If a tree exceeds max_nodes.
     """
     speed = float(np.linalg.norm(_vector("velocity", velocity)))
-    _check(
+    check(
         checks.not_negative("time", time),
         checks.positive("rms_velocity", rms_velocity),
         checks.at_least("oversampling", oversampling, 1.0),
-        _size(n_realizations, seed, max_nodes),
+        checks.not_negative("onset", onset),
+        sizes(n_realizations, seed, max_nodes),
     )
 
     def draw(values, nodes, stream):
         reduced = speed / rms_velocity
         return bkw_tree.estimate(
-            values, nodes, reduced, float(time), float(oversampling), max_nodes, stream
+            values,
+            nodes,
+            reduced,
+            float(time),
+            float(oversampling),
+            float(onset),
+            max_nodes,
+            stream,
         )
 
     factor = float(bkw.maxwellian(speed, rms_velocity))
-    return _estimate(draw, factor, n_realizations, seed, "boltzmann.estimate_bkw")
+    return estimate_from(draw, factor, n_realizations, seed, "boltzmann.estimate_bkw")
 
 
 def estimate_bkw_fraction(
@@ -156,27 +165,36 @@ def estimate_bkw_fraction(
     seed,
     rms_velocity=1.0,
     oversampling=1.0,
+    onset=0.0,
     max_nodes=MAX_NODES,
 ):
     """Estimate the fraction of particles with |c| > threshold by Algorithm 3 and eq. (19).
 
     Parameters, result and errors as `estimate_bkw`, with threshold >= 0 in place of velocity.
     """
-    _check(
+    check(
         checks.not_negative("threshold", threshold),
         checks.not_negative("time", time),
         checks.positive("rms_velocity", rms_velocity),
         checks.at_least("oversampling", oversampling, 1.0),
-        _size(n_realizations, seed, max_nodes),
+        checks.not_negative("onset", onset),
+        sizes(n_realizations, seed, max_nodes),
     )
 
     def draw(values, nodes, stream):
         reduced = threshold / rms_velocity
         return bkw_tree.estimate_fraction(
-            values, nodes, reduced, float(time), float(oversampling), max_nodes, stream
+            values,
+            nodes,
+            reduced,
+            float(time),
+            float(oversampling),
+            float(onset),
+            max_nodes,
+            stream,
         )
 
-    return _estimate(draw, 1.0, n_realizations, seed, "boltzmann.estimate_bkw_fraction")
+    return estimate_from(draw, 1.0, n_realizations, seed, "boltzmann.estimate_bkw_fraction")
 
 
 def estimate_extinction(
@@ -201,12 +219,12 @@ def estimate_extinction(
     ValueError, BudgetError
         As `estimate_bkw`.
     """
-    _check(
+    check(
         checks.not_negative("time", time),
         checks.positive("rate", rate),
         checks.positive("initial", initial),
         checks.positive("majorant", majorant),
-        _size(n_realizations, seed, max_nodes),
+        sizes(n_realizations, seed, max_nodes),
     )
     scale = rate * initial
 
@@ -215,7 +233,7 @@ def estimate_extinction(
             values, nodes, float(scale * time), majorant / scale, max_nodes, stream
         )
 
-    return _estimate(draw, initial, n_realizations, seed, "boltzmann.estimate_extinction")
+    return estimate_from(draw, initial, n_realizations, seed, "boltzmann.estimate_extinction")
 
 
 def _trap_problems(physics, choices):
@@ -288,10 +306,10 @@ def estimate_trap(
         "cross_section": cross_section,
     }
     choices = {"majorant_factor": majorant_factor, "spread": spread, "anisotropy": anisotropy}
-    _check(
+    check(
         checks.not_negative("time", time),
         _trap_problems(physics, choices),
-        _size(n_realizations, seed, max_nodes),
+        sizes(n_realizations, seed, max_nodes),
     )
     reduced, length = _trap_units(physics)
     radius = float(np.linalg.norm(place)) / length
@@ -307,7 +325,7 @@ def estimate_trap(
 
     state = trap.breathing_density(radius, radial, tangential, phase, breathing, start_phase)
     factor = amount * float(state) / (length * rms_velocity) ** 3
-    return _estimate(draw, factor, n_realizations, seed, "boltzmann.estimate_trap")
+    return estimate_from(draw, factor, n_realizations, seed, "boltzmann.estimate_trap")
 
 
 def estimate_trap_fraction(
@@ -338,11 +356,11 @@ def estimate_trap_fraction(
         "amount": amount,
         "cross_section": cross_section,
     }
-    _check(
+    check(
         checks.not_negative("radius", radius),
         checks.not_negative("time", time),
         _trap_problems(physics, checks.PUBLISHED_CHOICES),
-        _size(n_realizations, seed, max_nodes),
+        sizes(n_realizations, seed, max_nodes),
     )
     reduced, length = _trap_units(physics)
     laws = trap.MAJORANT, 1.0, 0.0
@@ -351,4 +369,4 @@ def estimate_trap_fraction(
         probe = radius / length, float(angular_frequency * time)
         return trap_tree.estimate_fraction(values, nodes, *probe, reduced, laws, max_nodes, stream)
 
-    return _estimate(draw, 1.0, n_realizations, seed, "boltzmann.estimate_trap_fraction")
+    return estimate_from(draw, 1.0, n_realizations, seed, "boltzmann.estimate_trap_fraction")

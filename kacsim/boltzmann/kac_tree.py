@@ -7,7 +7,7 @@ from kacsim.jit import kernel
 
 
 @kernel
-def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
+def estimate(values, nodes, speed, time, oversampling, onset, max_nodes, stream):
     """Draw realizations of f(v; t) / M(v), M the Normal(0, 3/2) of eq. (9).
 
     Parameters
@@ -15,7 +15,7 @@ def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
     values : float64[n], overwritten
     nodes : int64[n], overwritten by the numbers of t' drawings; -1 marks an exceeded budget
     speed, time : |v| / sqrt(3/2) and rate * t
-    oversampling : m >= 1
+    oversampling, onset : m >= 1, and the time from which on it is used
     max_nodes : int, budget of one realization
     stream : uint64[4], advanced
 
@@ -26,7 +26,7 @@ def estimate(values, nodes, speed, time, oversampling, max_nodes, stream):
     stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
     for k in range(values.size):
         values[k], nodes[k] = tree(
-            KAC, speed * speed, time, oversampling, max_nodes, stack, counts, stream
+            KAC, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         if nodes[k] < 0:
             return False

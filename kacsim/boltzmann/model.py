@@ -66,7 +66,7 @@ def copies(oversampling, stream):
 
 
 @inlined
-def tree(law, x, time, oversampling, max_nodes, stack, counts, stream):
+def tree(law, x, time, oversampling, onset, max_nodes, stack, counts, stream):
     """Return (F / M, nodes) of one realization; nodes is -1 if the budget is exceeded.
 
     Parameters
@@ -74,6 +74,7 @@ def tree(law, x, time, oversampling, max_nodes, stack, counts, stream):
     law : BKW or KAC
     x, time : energy of the probe, and t in mean collision times
     oversampling : m >= 1, mean number of sub-estimates behind each side of a collision
+    onset : collisions before this time are not oversampled; 0 oversamples everywhere
     max_nodes : int, budget
     stack : float64[DEPTH, 5], per level: x'*, time, energy of the side under way, sum, first mean
     counts : int64[DEPTH, 3], per level: side, sub-estimates left, their number
@@ -92,7 +93,8 @@ def tree(law, x, time, oversampling, max_nodes, stack, counts, stream):
             stack[level, 0], stack[level, 1], stack[level, 2] = second, time, first
             stack[level, 3] = 0.0
             counts[level, 0] = 0
-            counts[level, 1] = counts[level, 2] = copies(oversampling, stream)
+            more = oversampling if time > onset else 1.0
+            counts[level, 1] = counts[level, 2] = copies(more, stream)
             level += 1
             x = first
             continue
@@ -108,7 +110,8 @@ def tree(law, x, time, oversampling, max_nodes, stack, counts, stream):
                 stack[top, 4], stack[top, 3] = value, 0.0
                 stack[top, 2] = stack[top, 0]
                 counts[top, 0] = 1
-                counts[top, 1] = counts[top, 2] = copies(oversampling, stream)
+                more = oversampling if stack[top, 1] > onset else 1.0
+                counts[top, 1] = counts[top, 2] = copies(more, stream)
                 break
             value *= stack[top, 4]
             level -= 1

@@ -4,7 +4,15 @@ import math
 
 import numpy as np
 
-from kacsim.boltzmann import bkw_tree, kac_tree, literal, null_collisions, trap, trap_tree
+from kacsim.boltzmann import (
+    bkw_tree,
+    kac_tree,
+    literal,
+    literal_trap,
+    null_collisions,
+    trap,
+    trap_tree,
+)
 from kacsim.boltzmann.estimators import chunks
 from kacsim.store import described
 from kacsim.streams import new_stream
@@ -14,12 +22,12 @@ TOP = 500  # largest values kept at each probe, for the index of the tail
 
 
 def _bkw(p, speed, time):
-    probe = float(speed), float(time), float(p["oversampling"])
+    probe = float(speed), float(time), float(p["oversampling"]), float(p["onset"])
     return lambda v, n, s: bkw_tree.estimate(v, n, *probe, p["max_nodes"], s)
 
 
 def _bkw_fraction(p, threshold, time):
-    probe = float(threshold), float(time), float(p["oversampling"])
+    probe = float(threshold), float(time), float(p["oversampling"]), float(p["onset"])
     return lambda v, n, s: bkw_tree.estimate_fraction(v, n, *probe, p["max_nodes"], s)
 
 
@@ -49,6 +57,13 @@ def _trap(p, radius, time):
     return lambda v, n, s: trap_tree.estimate(v, n, *probe, physics, choices, p["max_nodes"], s)
 
 
+def _trap_literal(p, radius, time):
+    speed = float(trap.flow(radius, 0.0, p["breathing"]))
+    probe = float(radius), speed, float(time), float(p["coupling"]), float(p["breathing"])
+    relaxed = p["initial"] == "breathing"
+    return lambda v, n, s: literal_trap.estimate(v, n, *probe, relaxed, s)
+
+
 def _trap_fraction(p, radius, time):
     physics, choices = _trap_laws(p)
     probe = float(radius), float(time)
@@ -58,8 +73,22 @@ def _trap_fraction(p, radius, time):
 
 
 def _kac_probe(p, speed, time):
-    probe = speed / THERMAL, float(p["collision_rate"] * time), float(p["oversampling"])
-    return lambda v, n, s: kac_tree.estimate(v, n, *probe, p["max_nodes"], s)
+    probe = speed / THERMAL, float(p["collision_rate"] * time)
+    more = float(p["oversampling"]), float(p["collision_rate"] * p["onset"])
+    return lambda v, n, s: kac_tree.estimate(v, n, *probe, *more, p["max_nodes"], s)
+
+
+def _bkw_moment(p, oversampling, time):
+    probe = float(oversampling), float(time), float(p["onset"])
+    return lambda v, n, s: bkw_tree.estimate_moment(v, n, *probe, p["max_nodes"], s)
+
+
+def _trap_energy(p, radius, time):
+    physics, choices = _trap_laws(p)
+    probe = float(radius), float(time)
+    return lambda v, n, s: trap_tree.estimate_energy(
+        v, n, *probe, physics, choices, p["max_nodes"], s
+    )
 
 
 # sampler -> (name of the first probe axis, function that binds a kernel to a probe)
@@ -68,8 +97,11 @@ PROBES = {
     "bkw_fraction": ("threshold", _bkw_fraction),
     "bkw_literal": ("speed", _bkw_literal),
     "extinction": ("majorant", _extinction),
+    "trap_literal": ("radius", _trap_literal),
     "trap": ("radius", _trap),
     "trap_fraction": ("radius", _trap_fraction),
+    "trap_energy": ("radius", _trap_energy),
+    "bkw_moment": ("oversampling", _bkw_moment),
     "kac_probe": ("speed", _kac_probe),
 }
 

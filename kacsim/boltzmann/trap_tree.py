@@ -188,7 +188,27 @@ def estimate(values, nodes, radius, radial, tangential, time, physics, choices, 
 def estimate_fraction(values, nodes, threshold, time, physics, choices, max_nodes, stream):
     """Draw realizations of the fraction with |r| > threshold by Algorithm 7 and eq. (40).
 
-    Parameters and result as `estimate`; the velocity is drawn from the local Maxwellian of (31).
+    Parameters and result as `estimate`.
+    """
+    return beyond(values, nodes, threshold, time, physics, choices, max_nodes, False, stream)
+
+
+@kernel
+def estimate_energy(values, nodes, threshold, time, physics, choices, max_nodes, stream):
+    """Draw realizations of the mechanical energy of the matter with |r| > threshold.
+
+    Parameters and result as `estimate_fraction`; the whole cloud has 3 c_eq**2 per particle.
+    """
+    return beyond(values, nodes, threshold, time, physics, choices, max_nodes, True, stream)
+
+
+@inlined
+def beyond(values, nodes, threshold, time, physics, choices, max_nodes, energy, stream):
+    """Fill the realizations of Algorithm 7; the velocity is from the local Maxwellian of (31).
+
+    Parameters
+    ----------
+    energy : bool, multiply by the energy (r**2 + c**2) / 2 of the probe
     """
     stack, places = np.empty((DEPTH, 15)), np.empty(DEPTH, np.int64)
     state = frozen_state(physics[1], physics[2])
@@ -201,6 +221,8 @@ def estimate_fraction(values, nodes, threshold, time, physics, choices, max_node
         radius, weight = speed_beyond(threshold, stream)
         radial = flow * radius + width * normal(stream)
         tangential = width * math.sqrt(2.0 * exponential(stream))
+        if energy:
+            weight *= 0.5 * (radius**2 + radial**2 + tangential**2)
         ratio, nodes[k] = tree(
             radius, radial, tangential, time, laws, state, stack, places, max_nodes, stream
         )

@@ -12,6 +12,7 @@ _HOME = {
     "fourth_moment": "moments",
     "draw": "draws",
     "draw_equilibrium": "draws",
+    "estimate_density": "probe",
 }
 
 __all__ = ["ALGORITHMS", "RATE", *_HOME]

@@ -19,7 +19,7 @@ from kacsim.streams import new_stream
 
 RATE = 0.9
 # (particles, time, steps, draws)
-SHAPES = [(3, 5.1, 15, 1_000_000), (7, 1.7, 2, 1_000_000), (50, 1.7, 10, 500_000)]
+SHAPES = [(3, 5.1, 15, 1_000_000), (7, 5.1, 6, 1_000_000), (50, 1.7, 10, 500_000)]
 
 
 def parameters_of(algorithm, engine, n, time, steps):

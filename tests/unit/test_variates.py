@@ -102,7 +102,7 @@ def test_moments(name, seed):
     values = make(seed)
     assert abs(compare.of_mean(values, law.mean())) <= compare.LIMIT
     assert abs(compare.of_mean(values**2, law.var() + law.mean() ** 2)) <= compare.LIMIT
-    mutant = values + 0.01 * law.std()
+    mutant = values + 0.015 * law.std()
     assert abs(compare.of_mean(mutant, law.mean())) > compare.CAUGHT
 
 
@@ -118,14 +118,17 @@ def test_distribution(name, seed):
 
 @pytest.mark.parametrize("name", DISCRETE)
 def test_probabilities(name, seed):
-    """Null: the exact probabilities. Statistic: chi-squared, 1e6 draws see about 1 % in a bin."""
+    """Null: the exact probabilities. Statistic: chi-squared, 1e6 draws see about 1 % in a bin.
+
+    Mutant: a twentieth of the values lost, i.e. 0.
+    """
     make, law = DISCRETE[name]
     values = make(seed).astype(int)
     assert values.min() >= 0
     p = law.pmf(np.arange(values.max() + 1))
     counts = np.bincount(values)
     assert compare.of_counts(np.r_[counts, 0], np.r_[p, 1.0 - p.sum()]) <= compare.LIMIT
-    mutant = np.where(np.arange(values.size) % 50 == 0, 0, values)
+    mutant = np.where(np.arange(values.size) % 20 == 0, 0, values)
     counts = np.bincount(mutant, minlength=p.size)
     assert compare.of_counts(np.r_[counts, 0], np.r_[p, 1.0 - p.sum()]) > compare.CAUGHT
 

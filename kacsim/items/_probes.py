@@ -1,0 +1,147 @@
+"""What the items of the Boltzmann paper share: probes, estimates with errors, two-row figures."""
+
+import math
+
+from kacsim.cases import make_case
+from kacsim.items._lazy import np, plotting, store, xr
+
+SIZES = ("published", "large")
+
+
+def case(settings, sampler, size="published", **parameters):
+    """Return the case of a sampler at one of the item's two numbers of realizations."""
+    n_draws = settings["n_draws" if size == "published" else "large_n_draws"]
+    return make_case(
+        sampler,
+        n_draws=n_draws,
+        n_replicates=settings["n_replicates"],
+        seed=settings["seed"],
+        **parameters,
+    )
+
+
+def summary(sample, case_):
+    """Return (mean, standard error, variance of one realization, recursion) at every probe.
+
+    Each is float64[first, time]; values are those of the realizations, before any factor.
+    """
+    n = case_.n_draws * case_.n_replicates
+    mean = sample["mean"].mean("replicate").values
+    square = sample["mean_square"].mean("replicate").values
+    variance = np.maximum(0.0, square - mean**2) * n / max(1, n - 1)
+    return mean, np.sqrt(variance / n), variance, sample["nodes"].mean("replicate").values
+
+
+def table(samples, cases, axes, factor, exact):
+    """Return estimates with errors beside the exact values.
+
+    Parameters
+    ----------
+    samples : case id -> dataset
+    cases : dict size -> Case
+    axes : dict of the two probe axes, name -> values
+    factor : float64[first, time], by which a realization is multiplied
+    exact : float64[first, time]
+
+    Returns
+    -------
+    xarray.Dataset: value, error, spread (of one realization), actual_error, recursion, largest
+    share [size, *axes], exact[*axes], n_draws[size]
+    """
+    rows = []
+    for one in cases.values():
+        sample = samples[one.id]
+        mean, error, variance, nodes = summary(sample, one)
+        total = sample["mean"].sum("replicate").values * one.n_draws
+        share = sample["largest"].max("replicate").values / np.where(total > 0, total, np.nan)
+        rows.append(
+            {
+                "value": factor * mean,
+                "error": factor * error,
+                "spread": factor * np.sqrt(variance),
+                "actual_error": factor * mean - exact,
+                "recursion": nodes,
+                "largest_share": share,
+            }
+        )
+    texts = {
+        "value": "estimate",
+        "error": "standard error from the sample variance",
+        "spread": "standard deviation of one realization",
+        "actual_error": "estimate less the exact value",
+        "recursion": "mean number of t' drawings of one realization",
+        "largest_share": "share of the largest realization in the sum",
+    }
+    dims = ("size", *axes)
+    variables = {
+        name: store.described(np.array([row[name] for row in rows]), dims, text)
+        for name, text in texts.items()
+    }
+    variables["exact"] = store.described(exact, tuple(axes), "exact value")
+    amounts = [one.n_draws * one.n_replicates for one in cases.values()]
+    variables["n_draws"] = store.described(amounts, ("size",), "realizations per point")
+    coords = {"size": list(cases)} | {name: list(values) for name, values in axes.items()}
+    return xr.Dataset(variables, coords=coords)
+
+
+def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):
+    """Draw values over relative errors, one column per value of the panel axis.
+
+    Parameters
+    ----------
+    along, panel : names of the x axis and of the axis with one panel per value
+    titles : list of panel titles
+    critical : float or list per panel, times from which the bars are no standard errors
+    """
+    figure, axes = plotting.panels(2, dataset.sizes[panel], share_y=False)
+    count = dataset.sizes[panel]
+    for k, value in enumerate(dataset[panel].values):
+        here = dataset.sel({panel: value}).isel(size=0)
+        large = dataset.sel({panel: value}).isel(size=-1)
+        top, low = axes[k], axes[count + k]
+        x = here[along].values
+        curve = here[f"curve_{along}"]
+        top.plot(here[f"fine_{along}"], curve, color="black", lw=1, label="exact")
+        label = f"{int(here.n_draws):,} realizations"
+        plotting.points(top, x, here.value, here.error, 0, label, line=False)
+        top.set_title(titles[k])
+        top.set_ylabel(y_label)
+        for j, one in enumerate((here, large)[: dataset.sizes["size"]]):
+            amount = f"{int(one.n_draws):,}"
+            style = {"ls": "", "ms": 4, "color": plotting.COLOURS[j]}
+            low.plot(x, one.error / one.exact, "o", label=f"relative s.d., {amount}", **style)
+            wrong = np.abs(one.actual_error) / one.exact
+            low.plot(x, wrong, "^", mfc="none", label=f"actual error, {amount}", **style)
+        low.set_yscale("log")
+        low.set_xlabel(x_label)
+        low.set_ylabel("relative error")
+        _mark(top, low, critical, k, value, along)
+    axes[0].legend()
+    axes[count].legend()
+    return figure
+
+
+def _mark(top, low, critical, k, value, along):
+    """Mark where the variance is infinite: a shaded range of times, or a sentence."""
+    if critical is None:
+        return
+    if along != "time":
+        if value >= critical:
+            sentence = "variance infinite:\nbars are no standard errors"
+            top.text(0.02, 0.05, sentence, transform=top.transAxes, size=7)
+        return
+    right = top.get_xlim()[1]
+    if right > critical:
+        for axis in (top, low):
+            axis.axvspan(critical, right, color="0.9", zorder=0, lw=0)
+            axis.set_xlim(right=right)
+        style = {"transform": top.transAxes, "ha": "right", "size": 7}
+        top.text(0.98, 0.05, "shaded: variance infinite", **style)
+
+
+def worst_batch(sample):
+    """Return the largest |z| between the means of replicates and their common mean."""
+    mean = sample["mean"].values
+    spread = mean.std(axis=-1, ddof=1)
+    gaps = np.abs(mean - mean.mean(axis=-1, keepdims=True)).max(axis=-1)
+    return gaps / np.where(spread > 0, spread, math.inf)

@@ -1,0 +1,53 @@
+"""Fig. 10 of the Boltzmann paper: matter beyond a radius in the trap, by Algorithm 7."""
+
+from kacsim.items import _probes, _trap
+from kacsim.items._lazy import np, plotting, store, trap
+
+
+def cases(settings):
+    """Return every radius at both times, at both numbers of realizations."""
+    return list(_trap.cases_by_size("trap_fraction", settings).values())
+
+
+def reduce(samples, settings):
+    """Return estimates with errors beside the fraction of the breathing state."""
+    from scipy.stats import chi
+
+    found = _trap.cases_by_size("trap_fraction", settings)
+    phase = 2.0 * np.pi * np.array(settings["turn"], dtype=float)
+    size = trap.swelling(phase, settings["breathing"], settings["start_phase"])
+    exact = chi.sf(np.array(settings["radius"], dtype=float)[:, None] / np.sqrt(size), 3)
+    axes = {"radius": settings["radius"], "turn": settings["turn"]}
+    table = _probes.table(samples, found, axes, np.ones(exact.shape), exact)
+    return table.assign(
+        batch=store.described(
+            _trap.batches(samples, found),
+            ("size", "radius", "turn"),
+            "largest |z| of the replicates' means",
+        )
+    )
+
+
+def draw(dataset):
+    """Draw fractions, relative errors and recursion against the radius, a column per time."""
+    count = dataset.sizes["turn"]
+    figure, axes = plotting.panels(3, count, height=2.1)
+    for k, turn in enumerate(dataset.turn.values):
+        here = dataset.sel(turn=turn).isel(size=0)
+        radius, column = here.radius.values, axes[k::count]
+        label = f"{int(here.n_draws):,} realizations"
+        plotting.points(column[0], radius, here.value, here.error, 0, label, line=False)
+        column[0].plot(radius, here.exact, color="black", lw=1, label="breathing = ballistic")
+        column[1].plot(radius, here.error / here.exact, "o", color=plotting.COLOURS[0], ms=4)
+        wrong = np.abs(here.actual_error) / here.exact
+        column[1].plot(radius, wrong, "^", mfc="none", color=plotting.COLOURS[0], ms=4)
+        column[2].plot(radius, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
+        for axis in column:
+            axis.set_yscale("log")
+        column[0].set_title(f"$\\omega t$ = {2 * turn:g}$\\pi$")
+        column[0].set_ylabel("fraction $|r| > r_0$")
+        column[1].set_ylabel("relative s.d. (circles),\nerror (triangles)")
+        column[2].set_ylabel("mean recursion")
+        column[2].set_xlabel("$r_0\\,\\omega/c_{q,eq}$")
+    axes[0].legend()
+    return figure

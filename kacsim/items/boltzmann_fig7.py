@@ -1,0 +1,54 @@
+"""Fig. 7 of the Boltzmann paper: null collisions, value, variance and recursion by Algorithm 4."""
+
+from kacsim.items import _probes
+from kacsim.items._lazy import extinction, np, plotting, store
+
+
+def _cases(settings):
+    grid = {key: settings[key] for key in ("majorant", "time", "max_nodes")}
+    return {size: _probes.case(settings, "extinction", size, **grid) for size in _probes.SIZES}
+
+
+def cases(settings):
+    """Return both majorants at every time, at both numbers of realizations."""
+    return list(_cases(settings).values())
+
+
+def reduce(samples, settings):
+    """Return values, variances and recursions beside their predictions; f0 = alpha = 1."""
+    majorant, time = np.array(settings["majorant"])[:, None], np.array(settings["time"])
+    exact = np.broadcast_to(extinction.density(time, 1.0, 1.0), (majorant.size, time.size))
+    axes = {"majorant": settings["majorant"], "time": settings["time"]}
+    table = _probes.table(samples, _cases(settings), axes, np.ones(exact.shape), exact)
+    described, dims = store.described, ("majorant", "time")
+    variance = np.stack([extinction.variance(time, 1.0, 1.0, m) for m in settings["majorant"]])
+    return table.assign(
+        variance_exact=described(variance, dims, "variance of eq. (29)"),
+        recursion_exact=described(
+            extinction.mean_recursion(time, majorant), dims, "mean recursion of eq. (28)"
+        ),
+    )
+
+
+def draw(dataset):
+    """Draw three rows: value, relative variance and recursion; one column per majorant."""
+    count = dataset.sizes["majorant"]
+    figure, axes = plotting.panels(3, count, height=2.1)
+    for k, majorant in enumerate(dataset.majorant.values):
+        here = dataset.sel(majorant=majorant).isel(size=0)
+        time, column = here.time.values, axes[k::count]
+        label = f"{int(here.n_draws):,} realizations"
+        plotting.points(column[0], time, here.value, here.error, 0, label, line=False)
+        column[0].plot(time, here.exact, color="black", lw=1, label="exact")
+        column[1].plot(time, here.spread**2 / here.exact**2, "o", color=plotting.COLOURS[0], ms=4)
+        column[1].plot(time, here.variance_exact / here.exact**2, color="black", lw=1)
+        column[2].plot(time, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
+        column[2].plot(time, here.recursion_exact, color="black", lw=1)
+        column[2].set_yscale("log")
+        column[0].set_title(f"$\\hat\\nu$ = {majorant:g} $\\alpha f_0$")
+        column[2].set_xlabel("time $\\alpha f_0 t$")
+        column[0].set_ylabel("$f/f_0$")
+        column[1].set_ylabel("Var / $f^2$")
+        column[2].set_ylabel("mean recursion")
+    axes[0].legend()
+    return figure

@@ -1,0 +1,53 @@
+"""Fig. 9 of the Boltzmann paper: f in the trap against time, at two places, by Algorithm 6."""
+
+from kacsim.items import _probes, _trap
+from kacsim.items._lazy import np, plotting, store, trap
+
+
+def cases(settings):
+    """Return both places at every time, at the published and the large number of realizations."""
+    return list(_trap.cases_by_size("trap", settings).values())
+
+
+def reduce(samples, settings):
+    """Return estimates with errors, the two limiting predictions, and measures of reliability."""
+    found = _trap.cases_by_size("trap", settings)
+    radius = np.array(settings["radius"], dtype=float)[:, None]
+    phase = 2.0 * np.pi * np.array(settings["turn"], dtype=float)
+    state = settings["breathing"], settings["start_phase"]
+    speed = trap.flow(radius, 0.0, *state)
+    breathing = trap.breathing_density(radius, speed, 0.0, phase, *state)
+    free = trap.ballistic_density(radius, speed, 0.0, phase, *state)
+    axes = {"radius": settings["radius"], "turn": settings["turn"]}
+    table = _probes.table(samples, found, axes, breathing, breathing)
+    described, dims = store.described, ("radius", "turn")
+    return table.drop_vars("actual_error").assign(
+        ballistic=described(free, dims, "f without collisions"),
+        batch=described(
+            _trap.batches(samples, found), ("size", *dims), "largest |z| of the replicates' means"
+        ),
+    )
+
+
+def draw(dataset):
+    """Draw value, relative standard deviation and recursion, one column per place."""
+    count = dataset.sizes["radius"]
+    figure, axes = plotting.panels(3, count, height=2.1)
+    for k, radius in enumerate(dataset.radius.values):
+        here = dataset.sel(radius=radius).isel(size=0)
+        turn, column = here.turn.values, axes[k::count]
+        label = f"{int(here.n_draws):,} realizations"
+        plotting.points(column[0], turn, here.value, here.error, 0, label, line=False)
+        column[0].plot(turn, here.exact, color="black", lw=1, label="breathing state")
+        column[0].plot(turn, here.ballistic, color="0.5", ls="--", lw=1, label="no collisions")
+        column[1].plot(turn, here.error / here.value, "o", color=plotting.COLOURS[0], ms=4)
+        column[2].plot(turn, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
+        for axis in column[1:]:
+            axis.set_yscale("log")
+        column[0].set_title(f"$r$ = {radius:g} $c_{{q,eq}}/\\omega$")
+        column[0].set_ylabel("$f\\,c_{q,eq}^6/(n\\omega^3)$")
+        column[1].set_ylabel("relative s.d.")
+        column[2].set_ylabel("mean recursion")
+        column[2].set_xlabel("$\\omega t/2\\pi$")
+    axes[0].legend()
+    return figure

@@ -3,6 +3,12 @@
 from kacsim.items import _probes, _trap
 from kacsim.items._lazy import np, plotting, store, trap
 
+N_FINE = 301
+LINES = {
+    "breathing_curve": {"color": "black", "label": "breathing state"},
+    "ballistic_curve": {"color": "0.5", "ls": "--", "label": "no collisions"},
+}
+
 
 def cases(settings):
     """Return both places at every time, at the published and the large number of realizations."""
@@ -21,7 +27,20 @@ def reduce(samples, settings):
     axes = {"radius": settings["radius"], "turn": settings["turn"]}
     table = _probes.table(samples, found, axes, breathing, breathing)
     described, dims = store.described, ("radius", "turn")
+    turns = np.linspace(0.0, max(settings["turn"]), N_FINE)
+    fine = 2.0 * np.pi * turns
     return table.drop_vars("actual_error").assign(
+        breathing_curve=described(
+            trap.breathing_density(radius, speed, 0.0, fine, *state),
+            ("radius", "fine_turn"),
+            "f of the breathing state",
+        ),
+        ballistic_curve=described(
+            trap.ballistic_density(radius, speed, 0.0, fine, *state),
+            ("radius", "fine_turn"),
+            "f without collisions, at all times",
+        ),
+        fine_turn=("fine_turn", turns, {"long_name": "omega t / 2 pi", "units": "1"}),
         ballistic=described(free, dims, "f without collisions"),
         batch=described(
             _trap.batches(samples, found), ("size", *dims), "largest |z| of the replicates' means"
@@ -38,8 +57,8 @@ def draw(dataset):
         turn, column = here.turn.values, axes[k::count]
         label = f"{int(here.n_draws):,} realizations"
         plotting.points(column[0], turn, here.value, here.error, 0, label, line=False)
-        column[0].plot(turn, here.exact, color="black", lw=1, label="breathing state")
-        column[0].plot(turn, here.ballistic, color="0.5", ls="--", lw=1, label="no collisions")
+        for name, style in LINES.items():
+            column[0].plot(here.fine_turn, here[name], lw=1, **style)
         column[1].plot(turn, here.error / here.value, "o", color=plotting.COLOURS[0], ms=4)
         column[2].plot(turn, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
         for axis in column[1:]:

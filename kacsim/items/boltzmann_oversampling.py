@@ -23,13 +23,6 @@ def _case(settings, oversampling, time, onset):
     )
 
 
-def best_onset(time, oversampling):
-    """Return the onset, among tenths of the time, of the least predicted cost times variance."""
-    onsets = np.linspace(0.0, time, 21)[:-1]
-    costs = [predicted(time, oversampling, onset)[2] for onset in onsets]
-    return float(onsets[int(np.argmin(costs))])
-
-
 def predicted(time, oversampling, onset=0.0):
     """Return (excess variance G - H, nodes, their product) by the differential equations."""
     excess = bkw.second_moment_oversampled(time, oversampling, onset) - float(bkw.mean_square(time))
@@ -63,7 +56,8 @@ def reduce(samples, settings):
         other = samples[_late_case(settings, time).id]
         late[i] = float(other["mean_square"].mean()) - floor, float(other["nodes"].mean())
     fine = np.linspace(1.0, settings["largest_oversampling"], FINE)
-    curve = np.array([[predicted(time, m)[2] for m in fine] for time in times])
+    many = settings["predicted_time"]
+    curve = np.array([[predicted(time, m)[2] for m in fine] for time in many])
     m, share = settings["late_oversampling"], settings["late_onset_share"]
     described, two = store.described, ("time", "oversampling")
     product = measured["excess"] * measured["nodes"]
@@ -78,13 +72,15 @@ def reduce(samples, settings):
             "late_predicted": described(
                 [predicted(time, m, share * time)[2] for time in times], ("time",), "prediction"
             ),
-            "curve": described(curve, ("time", "fine"), "predicted cost times variance"),
+            "curve": described(curve, ("predicted_time", "fine"), "predicted cost times variance"),
             "best": described(
-                fine[np.argmin(curve, axis=1)], ("time",), "best uniform oversampling"
+                fine[np.argmin(curve, axis=1)], ("predicted_time",), "best uniform oversampling"
             ),
-            "best_product": described(curve.min(axis=1), ("time",), "its cost times variance"),
+            "best_product": described(
+                curve.min(axis=1), ("predicted_time",), "its cost times variance"
+            ),
         },
-        coords={"time": times, "oversampling": ms, "fine": ("fine", fine)},
+        coords={"time": times, "oversampling": ms, "fine": ("fine", fine), "predicted_time": many},
     )
 
 
@@ -92,11 +88,14 @@ def draw(dataset):
     """Draw cost times variance against oversampling, a colour per time."""
     figure, (axis,) = plotting.panels(1, 1)
     settings = dataset.attrs["settings"]
-    for k, time in enumerate(dataset.time.values):
-        here, colour = dataset.sel(time=time), plotting.COLOURS[k]
+    for k, time in enumerate(dataset.predicted_time.values):
+        here, colour = dataset.sel(predicted_time=time), plotting.COLOURS[k]
         finite = np.isfinite(here.curve.values)
         label = f"$t$ = {time:g}, best $m$ = {float(here.best):.2f}"
         axis.plot(dataset.fine[finite], here.curve[finite], color=colour, lw=1, label=label)
+        if time not in dataset.time.values:
+            continue
+        here = dataset.sel(time=time)
         axis.plot(dataset.oversampling, here["product"], plotting.MARKERS[k], color=colour, ms=4)
         axis.plot(
             settings["late_oversampling"], here.late_product, "*", color=colour, ms=9, mec="black"

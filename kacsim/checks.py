@@ -5,6 +5,7 @@ with these functions, so that a wrong value is refused before any work starts.
 """
 
 import math
+import numbers
 from dataclasses import dataclass
 
 RATE = math.sqrt(math.pi) / 2
@@ -24,6 +25,8 @@ NAMES = {
 ENGINES = ("ancestral", "forward")
 RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
 
+LARGEST = 1e50  # of any parameter: its products stay within double precision
+LONGEST_LITERAL = 10.0  # mean collision times; plain recursion has no budget
 MAX_NODES = 10_000_000  # budget of one tree of the Boltzmann paper
 BREATHING = 9.0 / 41.0  # eps of section V
 STARTS = ("bkw", "breathing")
@@ -53,28 +56,34 @@ def raise_problems(problems):
 
 
 def _is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    """Tell a real number that arithmetic in double precision can stand; nan and inf are none."""
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        return False
+    try:
+        return abs(float(value)) < LARGEST
+    except OverflowError:
+        return False
 
 
 def _is_integer(value):
-    return isinstance(value, int) and not isinstance(value, bool)
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 def positive(name, value):
     """Yield a problem unless the value is a positive finite number."""
-    if not _is_number(value) or not math.isfinite(value) or value <= 0:
+    if not _is_number(value) or value < 1.0 / LARGEST:
         yield Problem(name, value, "must be a positive finite number")
 
 
 def finite(name, value):
     """Yield a problem unless the value is a finite number."""
-    if not _is_number(value) or not math.isfinite(value):
+    if not _is_number(value):
         yield Problem(name, value, "must be a finite number")
 
 
 def at_least(name, value, least):
     """Yield a problem unless the value is a finite number of at least `least`."""
-    if not _is_number(value) or not math.isfinite(value) or value < least:
+    if not _is_number(value) or value < least:
         yield Problem(name, value, f"must be a finite number of at least {least:g}")
 
 
@@ -227,6 +236,13 @@ def bkw_literal(*, initial, speed, time):
     """Yield the problems of the literal Algorithm 2."""
     yield from one_of("initial", initial, ("bkw", "equilibrium"))
     yield from _probes(speed=speed, time=time)
+    yield from _literal_times(time)
+
+
+def _literal_times(time):
+    for value in time:
+        if _is_number(value) and value > LONGEST_LITERAL:
+            yield Problem("time", value, f"the literal algorithm takes at most {LONGEST_LITERAL:g}")
 
 
 def bkw_tree(*, speed, time):
@@ -255,3 +271,4 @@ def trap_literal(*, radius, time, initial, coupling, **state):
     yield from one_of("initial", initial, STARTS)
     yield from positive("coupling", coupling)
     yield from _probes(radius=radius, time=time)
+    yield from _literal_times(time)

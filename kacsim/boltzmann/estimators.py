@@ -65,6 +65,8 @@ def estimate_from(draw, factor, n_realizations, seed, name):
         square += (values * values).sum()
         nodes += int(counts.sum())
     mean = total / n_realizations
+    if not math.isfinite(factor * mean):
+        raise ValueError("the probe lies where double precision holds no value: bring it nearer")
     spread = max(0.0, square - n_realizations * mean * mean) / (n_realizations - 1)
     return Estimate(
         mean=float(factor * mean),
@@ -77,9 +79,12 @@ def estimate_from(draw, factor, n_realizations, seed, name):
 
 def _vector(name, value):
     """Return a float64[3]; a number stands for a vector along one axis."""
-    vector = np.asarray(value, dtype=float)
+    try:
+        vector = np.asarray(value, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        vector = np.array([np.nan])
     vector = np.array([float(vector), 0.0, 0.0]) if vector.ndim == 0 else vector
-    if vector.shape != (3,) or not np.isfinite(vector).all():
+    if vector.shape != (3,) or not (np.abs(vector) < checks.LARGEST).all():
         raise ValueError(f"{name} = {value!r}: must be a finite number or three of them")
     return vector
 

@@ -94,11 +94,14 @@ def tree(radius, radial, tangential, time, laws, state, stack, places, max_nodes
         and results (4)
     places : int64[DEPTH], the branch under way
     """
-    level, nodes = 0, 0
+    level, nodes, drawn = 0, 0, 0
     while True:
         nodes += 1
         collided = False
         while True:
+            drawn += 1
+            if drawn > max_nodes:
+                return 0.0, -1
             span = exponential(stream) / laws[0]
             if span >= time:
                 radius, radial, tangential = back(radius, radial, tangential, time)
@@ -111,7 +114,7 @@ def tree(radius, radial, tangential, time, laws, state, stack, places, max_nodes
                 collided = True
                 break
         if collided:
-            if nodes >= max_nodes or level >= DEPTH:
+            if level >= DEPTH:
                 return 0.0, -1
             phi = 2.0 * time + state[1]
             flow = state[0] * math.cos(phi) / size * radius
@@ -165,7 +168,7 @@ def estimate(values, nodes, radius, radial, tangential, time, physics, choices, 
     radius, radial, tangential, time : probe
     physics : (coupling, breathing, start_phase, start), start 1.0 for BKW, 0.0 for breathing
     choices : (majorant / (kappa eta), spread, anisotropy); (`trap.MAJORANT`, 1, 0) in the text
-    max_nodes : int, budget of one realization
+    max_nodes : int, budget of t' drawings of one realization, inner null collisions included
     stream : uint64[4], advanced
 
     Returns

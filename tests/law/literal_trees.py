@@ -20,6 +20,7 @@ ALWAYS_ACCEPT = 4  # no null collisions: every raised one is taken for a real on
 UNWEIGHTED_SPREAD = 5  # c* from a wider law, weighted as if it were the Maxwellian
 UNSAMPLED_TILT = 6  # u' isotropic, weighted as if it were from (1 + 0.7 mu) / 4 pi
 UNWEIGHTED_MAJORANT = 7  # collisions twice as often, weighted as if they were not
+FORGET_LOSS = 8  # collisions bring particles and take none away
 compiled = numba.njit(error_model="numpy")
 
 
@@ -212,6 +213,8 @@ def trap(r, c, time, gas, mutation, nodes, stream):
     weight *= math.exp(0.5 * ((other - flow) ** 2).sum() / width**2)
     if mutation == UNSAMPLED_TILT:
         weight /= 1.0 + 0.7 * (u * place).sum() / length(place)
+    if mutation == FORGET_LOSS:
+        f2 = 0.0
     return f1 + weight * (f3 * f4 - f1 * f2)
 
 
@@ -225,10 +228,10 @@ def trap_values(values, calls, r, c, time, gas, mutation, stream):
 
 
 @compiled
-def trap_fraction_values(values, threshold, time, gas, mutation, stream):
+def trap_fraction_values(values, threshold, time, gas, energy, mutation, stream):
     """Fill with estimates by Algorithm 7 and the second law of eq. (40), for r0 <= 2 c_eq / omega.
 
-    Mutation of Algorithm 7 itself: FORGET_4_PI.
+    With `energy`, of the mechanical energy beyond r0 in place of the share, in c_eq**2.
     """
     _, _, omega, q, eps, phase = gas
     phi = 2.0 * omega * time + phase
@@ -244,4 +247,6 @@ def trap_fraction_values(values, threshold, time, gas, mutation, stream):
         c = eps * math.cos(phi) / size * omega * r + peculiar
         f = trap(r, c, time, gas, mutation, count, stream)
         share = radius * radius * f / (p_radius * p_speed * gas[0])
+        if energy:
+            share *= 0.5 * ((omega * radius) ** 2 + (c * c).sum()) / q**2
         values[k] = share * (1.0 if mutation == FORGET_4_PI else 4.0 * math.pi)

@@ -1,0 +1,281 @@
+"""The branching estimators against exact results and against the algorithms as printed.
+
+84 z tests of 6.3e-5 each: a false alarm in 0.53 % of the seeds. A z of a mean needs a finite
+second moment, and one of a mean square a finite fourth: E_M[(F / M)**p] of BKW is finite for
+p < 6.6 at t = 0.5 and p < 4.2 at t = 1 (`bkw.tail_index`), oversampled or not (a mean of
+sub-estimates has no heavier tail); of Kac at rate * t <= 0.45 for p < 3.3; extinction with a
+majorant of at least alpha f0 stays between 0 and f0. No moment is known in the trap;
+the largest of 1e6 realizations used here have a tail index (Hill) of 6.2 or more.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from law import compare
+from law import literal_trees as printed
+from law.realizations import (
+    GAS,
+    LATE,
+    MAJORANT,
+    N_MUTANT,
+    PLACE,
+    RATE,
+    SPEED,
+    START,
+    TRAP,
+    VELOCITY,
+    N,
+    Q,
+    caught,
+    drawn,
+    kernel_draws,
+    ok,
+    reduced,
+    z_between,
+    z_from,
+    z_of,
+    z_of_leaves,
+)
+
+from kacsim import boltzmann, kac
+from kacsim.boltzmann import bkw, bkw_tree, extinction, literal, trap, trap_tree
+from kacsim.streams import new_stream
+
+
+@pytest.mark.parametrize("time", [0.5, 1.0])
+def test_bkw(time, seed):
+    """16 z: f at three velocities and fractions from 1 to 1e-10; 2 exp(t) - 1 drawings."""
+    for velocity in (VELOCITY, 0.4, 7.0):
+        one = boltzmann.estimate_bkw(velocity, time, n_realizations=N, seed=seed, rms_velocity=Q)
+        exact = bkw.density(np.linalg.norm(velocity), time, Q)
+        assert ok(z_of(one, exact))
+    # Var of the leaves of a tree: e**t (e**t - 1), of its drawings four times that
+    spread = 2.0 * math.sqrt(math.exp(time) * math.expm1(time) / N)
+    assert ok((one.mean_recursion - bkw.mean_recursion(time)) / spread)
+    for threshold in (0.0, 3.0, 6.0, 10.2):
+        options = {"n_realizations": N, "seed": seed, "rms_velocity": Q}
+        share = boltzmann.estimate_bkw_fraction(threshold, time, **options)
+        assert ok(z_of(share, bkw.fraction(threshold, time, Q)))
+
+
+def test_bkw_as_printed_and_mutants(seed):
+    """2 z as printed, and what the same z makes of mutants at a tenth of the realizations."""
+    exact = bkw.density(np.linalg.norm(VELOCITY), 0.5, Q)
+    for mutation in (printed.AS_PRINTED, printed.OLD_VELOCITY, printed.ONE_FOR_TWO):
+        options = {"seed": seed, "name": "bkw", "mutation": mutation}
+        z = compare.of_mean(drawn(printed.bkw_values, VELOCITY, 0.5, Q, **options), exact)
+        assert (ok if mutation == printed.AS_PRINTED else caught)(z)
+    exact = bkw.fraction(6.0, 1.0, Q)
+    for mutation in (printed.AS_PRINTED, printed.FORGET_4_PI):
+        options = {"seed": seed, "name": "fraction", "mutation": mutation}
+        z = compare.of_mean(drawn(printed.bkw_fraction_values, 6.0, 1.0, Q, **options), exact)
+        assert (ok if mutation == printed.AS_PRINTED else caught)(z)
+
+
+def test_literal_and_tree_agree(seed):
+    """3 z: the two programs of Algorithm 2 give one law of F / M (ties, leaves alone, aside)."""
+    tree = kernel_draws(bkw_tree.estimate, (2.3, 0.8, 1.0, 0.0, 10**6), N, seed, "tree")
+    plain = kernel_draws(literal.estimate, (2.3, 0.8, False), 300_000, seed, "literal")
+    assert ok(z_of_leaves(tree[1], 0.8), z_of_leaves(plain[1], 0.8))
+    several = [values[nodes > 1] for values, nodes in (tree, plain)]
+    assert ok(compare.of_distributions(*several))
+    # Negative controls: other times and another speed.
+    other = kernel_draws(literal.estimate, (2.2, 0.8, False), 300_000, seed, "other")
+    assert caught(compare.of_distributions(several[0], other[0][other[1] > 1]))
+    assert caught(z_of_leaves(tree[1], 0.78))
+
+
+@pytest.mark.parametrize(("m", "onset"), [(1.0, 0.0), (1.5, 0.0), (1.5, 0.3), (2.3, 0.0)])
+def test_second_moment(m, onset, seed):
+    """8 z: E F / M = 1 whatever the oversampling, and E (F / M)**2 by its equation, at t = 0.5."""
+    values, _ = kernel_draws(
+        bkw_tree.estimate_moment, (m, 0.5, onset, 10**6), 3 * N, seed, f"moment {m}"
+    )
+    exact = bkw.second_moment_oversampled(0.5, m, onset)
+    assert ok(compare.of_mean(values, 1.0), compare.of_mean(values**2, exact))
+    # Negative controls: as if not oversampled, and another time.
+    if m > 1.0:
+        assert caught(compare.of_mean(values**2, bkw.second_moment(0.5)))
+    assert caught(compare.of_mean(values**2, bkw.second_moment_oversampled(0.45, m, 0.0)))
+
+
+def test_oversampled_density(seed):
+    """4 z: m = 1.5 keeps the mean at a probe, near and far, from t = 0 and from t = 0.4 on."""
+    for velocity in (0.4, 7.0):
+        for onset in (0.0, 0.4):
+            one = boltzmann.estimate_bkw(
+                velocity,
+                1.0,
+                n_realizations=N,
+                seed=seed,
+                rms_velocity=Q,
+                oversampling=1.5,
+                onset=onset,
+            )
+            assert ok(z_of(one, bkw.density(velocity, 1.0, Q)))
+            # Negative control: the density 6 % of a collision time later.
+            assert caught(z_of(one, bkw.density(velocity, 1.06, Q)))
+
+
+@pytest.mark.parametrize("majorant", [0.92, MAJORANT])
+def test_extinction(majorant, seed):
+    """6 z: mean, variance and recursion at t = 0.8, alpha = 2.3, f0 = 0.4."""
+    options = {"rate": RATE, "initial": START, "majorant": majorant}
+    one = boltzmann.estimate_extinction(0.8, n_realizations=N, seed=seed, **options)
+    f = extinction.density(0.8, RATE, START)
+    variance = extinction.variance(0.8, RATE, START, majorant)
+    spread = 2.0 * math.sqrt(math.exp(0.8 * majorant) * math.expm1(0.8 * majorant) / N)
+    assert ok(z_of(one, f))
+    assert ok((one.mean_recursion - extinction.mean_recursion(0.8, majorant)) / spread)
+    arguments = 0.8, RATE, START, majorant
+    values = drawn(printed.extinction_values, *arguments, seed=seed, name="extinction")
+    # The standard error of the sample variance, from the fourth moment of the printed algorithm.
+    error = ((values - f) ** 2).std() / math.sqrt(N)
+    assert ok((one.variance - variance) / error)
+    for mutation in (printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
+        options = {"seed": seed, "name": "extinction", "mutation": mutation}
+        values = drawn(printed.extinction_values, *arguments, **options)
+        assert caught(compare.of_mean(values, f))
+        assert caught(compare.of_mean((values - f) ** 2, variance))
+
+
+@pytest.mark.parametrize("rate", [0.9, kac.RATE])
+def test_kac(rate, seed):
+    """8 z: f(v, 0.5) of the Kac equation, and with sub-estimates from t = 0.2 on."""
+    for v in (-0.7, 0.1, 2.5, 4.0):
+        for m in (1.0, 1.5):
+            one = kac.estimate_density(
+                v,
+                0.5,
+                n_realizations=N,
+                seed=seed,
+                collision_rate=rate,
+                oversampling=m,
+                onset=0.2 * (m - 1.0),
+            )
+            assert ok(z_of(one, kac.density(v, 0.5, rate)))
+
+
+def test_kac_as_printed_and_mutants(seed):
+    """2 z as printed."""
+    for v in (0.7, 2.5):
+        exact = kac.density(v, 0.5, 0.9)
+        for mutation in (printed.AS_PRINTED, printed.OLD_VELOCITY, printed.ONE_FOR_TWO):
+            options = {"seed": seed, "name": "kac", "mutation": mutation}
+            z = compare.of_mean(drawn(printed.kac_values, v, 0.5, 0.9, **options), exact)
+            assert (ok if mutation == printed.AS_PRINTED else caught)(z)
+
+
+def trap_at(position, velocity, time, seed, n=N, **changes):
+    given = TRAP | changes
+    return boltzmann.estimate_trap(position, velocity, time, n_realizations=n, seed=seed, **given)
+
+
+OTHER_LAWS = [
+    {"majorant_factor": 1.7},
+    {"spread": 1.2},
+    {"anisotropy": 0.7},
+    {"majorant_factor": 0.8, "spread": 1.1, "anisotropy": -0.5},
+]
+
+
+@pytest.mark.parametrize("laws", [{}, *OTHER_LAWS], ids=str)
+def test_started_in_the_breathing_state_the_trap_has_no_variance(laws, seed):
+    """Algorithm 5, no statistics: every realization is eq. (31), and from eq. (18) it is not."""
+    one = trap_at(PLACE, SPEED, LATE, seed, 2000, initial="breathing", **laws)
+    peculiar = trap.breathing_density(*reduced(PLACE, SPEED), 1.5, 0.3, 0.4)
+    exact = 2.0 * 0.6**3 / 1.1**6 * float(peculiar)
+    assert one.mean == pytest.approx(exact, rel=1e-12)
+    assert one.standard_error <= 1e-9 * exact
+    assert one.mean_recursion > 1.5
+    assert trap_at(PLACE, SPEED, LATE, seed, 2000, **laws).standard_error > 1e-3 * exact
+
+
+def test_the_traps_mean_does_not_depend_on_the_sampling_laws(seed):
+    """12 z; the printed algorithm with a law and another law's weight is told apart."""
+    far = np.array([0.0, 2.5, 0.3]), np.array([0.2, 0.1, -0.9])
+    for k, probe in enumerate(((PLACE, SPEED), far, (0.0, np.array([0.3, 0.0, 1.2])))):
+        published = trap_at(*probe, LATE, seed)
+        for laws in OTHER_LAWS:
+            assert ok(z_between(trap_at(*probe, LATE, seed + 1000 + k, **laws), published))
+    published = trap_at(PLACE, SPEED, LATE, seed).mean
+    wrong = printed.UNWEIGHTED_SPREAD, printed.UNSAMPLED_TILT, printed.UNWEIGHTED_MAJORANT
+    for mutation in wrong:
+        assert caught(compare.of_mean(printed_trap(seed, mutation)[0], published))
+
+
+def printed_trap(seed, mutation=printed.AS_PRINTED, n=N_MUTANT):
+    values, calls = np.empty(n), np.empty(n, np.int64)
+    stream = new_stream(seed, "printed trap")
+    printed.trap_values(values, calls, PLACE, SPEED, LATE, GAS, mutation, stream)
+    return values, calls
+
+
+def test_trap_as_printed(seed):
+    """4 z: vectors, units and four sub-estimates as printed give the kernel's law."""
+    one = trap_at(PLACE, SPEED, LATE, seed)
+    values, calls = printed_trap(seed, n=200_000)
+    physics = 2.0 * 5.0 * 0.6**2 / 1.1**3, 0.3, 0.4, 1.0
+    arguments = (*reduced(PLACE, SPEED), 1.5, physics, (trap.MAJORANT, 1.0, 0.0), 10**6)
+    ratios, nodes = kernel_draws(trap_tree.estimate, arguments, N, seed, "trap")
+    equilibrium = trap.breathing_density(*reduced(PLACE, SPEED), 1.5, 0.3, 0.4)
+    ratios *= 2.0 * 0.6**3 / 1.1**6 * float(equilibrium)
+    assert ok(z_from(values, one), compare.of_means(calls, nodes))
+    assert ok(compare.of_distributions(ratios[nodes > 1], values[calls > 1]))
+    alone = (nodes == 1).mean(), (calls == 1).mean()
+    error = math.sqrt(alone[0] * (1.0 - alone[0]) * (1.0 / N + 1.0 / calls.size))
+    assert ok((alone[0] - alone[1]) / error)
+    for mutation in (printed.OLD_VELOCITY, printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
+        values, calls = printed_trap(seed, mutation)
+        assert caught(z_from(values, one))
+        assert caught(compare.of_distributions(ratios[nodes > 1], values[calls > 1]))
+
+
+def test_shares_of_the_trap_as_printed(seed):
+    """2 z: Algorithm 7, and what the same z makes of a forgotten 4 pi."""
+    for radius in (0.4, 2.5):
+        one = boltzmann.estimate_trap_fraction(radius, LATE, n_realizations=N, seed=seed, **TRAP)
+        for mutation in (printed.AS_PRINTED, printed.FORGET_4_PI):
+            options = {"seed": seed, "name": "share", "mutation": mutation}
+            values = drawn(printed.trap_fraction_values, radius, LATE, GAS, False, **options)
+            assert (ok if mutation == printed.AS_PRINTED else caught)(z_from(values, one))
+
+
+def shares(radius, phase, seed, *, energy=False):
+    """Return realizations of the share of matter beyond a radius, or of its energy."""
+    kernel = trap_tree.estimate_energy if energy else trap_tree.estimate_fraction
+    arguments = radius, phase, (2.7, 0.3, 0.4, 1.0), (trap.MAJORANT, 1.0, 0.0), 10**6
+    return kernel_draws(kernel, arguments, N, seed, f"share {radius} {phase}")[0]
+
+
+@pytest.mark.parametrize("phase", [1.5, math.pi])
+def test_mass_and_energy_of_the_trap(phase, seed):
+    """4 z: one particle and 3 c_eq**2 of energy."""
+    assert ok(compare.of_mean(shares(0.0, phase, seed), 1.0))
+    assert ok(compare.of_mean(shares(0.0, phase, seed, energy=True), 3.0))
+
+
+@pytest.mark.parametrize(("energy", "exact"), [(False, 1.0), (True, 3.0)])
+def test_mass_and_energy_as_printed_and_mutants(energy, exact, seed):
+    """2 z as printed; collisions without loss keep neither."""
+    for mutation in (printed.AS_PRINTED, printed.FORGET_LOSS):
+        options = {"seed": seed, "name": "mass", "mutation": mutation, "n": 400_000}
+        values = drawn(printed.trap_fraction_values, 0.0, LATE, GAS, energy, **options)
+        z = compare.of_mean(values, exact)
+        assert (ok if mutation == printed.AS_PRINTED else caught)(z)
+
+
+@pytest.mark.parametrize("radius", [0.7, 2.0, 4.5])
+def test_share_after_a_whole_turn(radius, seed):
+    """3 z: at omega t = 2 pi the share beyond a radius is the breathing state's, eq. (31)."""
+    values = shares(radius, 2.0 * math.pi, seed)
+
+    def breathing(phase):
+        y = radius / math.sqrt(float(trap.swelling(phase, 0.3, 0.4)))
+        bell = math.sqrt(2.0 / math.pi) * y * math.exp(-0.5 * y * y)
+        return math.erfc(y / math.sqrt(2.0)) + bell
+
+    assert ok(compare.of_mean(values, breathing(2.0 * math.pi)))
+    # Negative control: the share a third of a radian later.
+    assert caught(compare.of_mean(values, breathing(2.0 * math.pi + 0.33)))

@@ -9,8 +9,8 @@ _HOME = {
     "estimate_bkw": "estimators",
     "estimate_bkw_fraction": "estimators",
     "estimate_extinction": "estimators",
-    "estimate_trap": "estimators",
-    "estimate_trap_fraction": "estimators",
+    "estimate_trap": "trap_estimators",
+    "estimate_trap_fraction": "trap_estimators",
 }
 
 __all__ = [*_HOME]

@@ -152,7 +152,7 @@ def kac(
             yield Problem("n_particles", n_particles, "infinity needs ancestral poisson")
             return
     else:
-        wrong = list(count("n_particles", n_particles, least=2))
+        wrong = list(particles(n_particles, algorithm, engine))
         yield from wrong
         if wrong:
             return
@@ -160,6 +160,33 @@ def kac(
         yield from _stepped(algorithm, n_particles, time, time_step, collision_rate)
     elif time_step is not None:
         yield Problem("time_step", time_step, f"{algorithm} has no time step")
+
+
+def particles(n_particles, algorithm, engine):
+    """Yield the problems of a finite number of particles."""
+    yield from count("n_particles", n_particles, least=2)
+    labelled = algorithm in STEPPED or engine == "forward"
+    most = 10**8 if labelled else 10**15
+    if _is_integer(n_particles) and n_particles > most:
+        yield Problem(
+            "n_particles", n_particles, f"must be at most {most} for {engine} {algorithm}"
+        )
+
+
+def moment(algorithm, time, n_particles, time_step, collision_rate):
+    """Yield the problems of an exact fourth moment."""
+    yield from one_of("algorithm", algorithm, ALGORITHMS)
+    yield from positive("collision_rate", collision_rate)
+    if time == math.inf:
+        if algorithm != "poisson":
+            yield Problem("time", time, "infinity needs poisson")
+    else:
+        yield from not_negative("time", time)
+    if n_particles != math.inf:
+        wrong = list(count("n_particles", n_particles, least=2))
+        yield from wrong
+        if not wrong and algorithm in STEPPED and _is_number(time) and time > 0:
+            yield from _stepped(algorithm, n_particles, time, time_step, collision_rate)
 
 
 def _stepped(algorithm, n_particles, time, time_step, rate):

@@ -15,6 +15,9 @@ from kacsim.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml")
+# Thresholds of tails, and the width of the bins that samples are counted in.
+EDGES = {"tail_above", "tail_threshold", "claim_threshold"}
+FINEST = 0.05
 COMMON = ("seed", "bin_width", "other_bin_widths")
 
 
@@ -105,6 +108,7 @@ class Plan:
             self.cases_of[name] = list({case.id: case for case in cases}.values())
             if "items" not in self.settings[name]:  # else the used items have reported them
                 problems += self._case_problems(name)
+            problems += self._edge_problems(name)
         self._refuse(problems)
         self.cases = {case.id: case for cases in self.cases_of.values() for case in cases}
 
@@ -124,6 +128,17 @@ class Plan:
                 path = self._key_of(name, problem) or (name, problem.name)
                 found[(path, repr(problem.value))] = (path, problem.value, problem.allowed)
         return list(found.values())
+
+    def _edge_problems(self, name):
+        """Return the thresholds of an item that no fine bin begins at."""
+        found = []
+        for key in EDGES & set(self.config[name]):
+            value = self.config[name][key]
+            for place, one in enumerate(value) if isinstance(value, list) else [(None, value)]:
+                if abs(one / FINEST - round(one / FINEST)) > 1e-6:
+                    path = (name, key) if place is None else (name, key, place)
+                    found.append((path, one, f"must be a multiple of {FINEST}"))
+        return found
 
     def _key_of(self, name, problem):
         """Return the path of the setting that a case's wrong value came from."""

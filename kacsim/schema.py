@@ -79,7 +79,8 @@ def _misread(value):
 
 def _unknown(key, known):
     near = difflib.get_close_matches(str(key), known, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
+    others = f"known: {', '.join(known)}" if known else "no keys are known here"
+    hint = f"did you mean {near[0]}?" if near else others
     return f"unknown key; {hint}"
 
 
@@ -93,6 +94,7 @@ def _allowed(error):
         "maximum": f"at most {bound}",
         "exclusiveMaximum": f"less than {bound}",
         "enum": f"one of {bound}",
+        "const": f"{bound}",
         "minItems": f"a list of at least {bound} values",
         "uniqueItems": "a list without repetitions",
     }

@@ -10,6 +10,8 @@ from kacsim.checks import MEAN_ENERGY, RATE
 
 def shape(time, collision_rate=RATE):
     """Return C(t) = 1 / (3 - 2 exp(-rate t / 8)) of eq. (8); time may be infinite."""
+    if not time >= 0.0:
+        raise ValueError(f"time = {time!r}: must be at least 0, or infinite")
     return 1.0 / (3.0 - 2.0 * math.exp(-collision_rate * time / 8.0))
 
 

@@ -10,6 +10,7 @@ import math
 import numpy as np
 from scipy import linalg
 
+from kacsim import checks
 from kacsim.checks import RATE, n_steps
 
 INITIAL_SQUARE = 15.0 / 4.0
@@ -27,7 +28,15 @@ def fourth_moment(
     n_particles : int >= 2, or math.inf for the Kac equation (any algorithm but with a step)
     algorithm : name as in `kac.draw`; "poisson" is Kac's N-particle process itself
     time_step : float, for the Nanbu family
+
+    Raises
+    ------
+    ValueError
+        Names the argument, its value and what is allowed.
     """
+    checks.raise_problems(checks.moment(algorithm, time, n_particles, time_step, collision_rate))
+    if time == 0:
+        return INITIAL_SQUARE
     if n_particles == math.inf:
         return INITIAL_SQUARE + 3.0 * -math.expm1(-collision_rate * time / 4.0)
     if algorithm == "poisson":

@@ -179,7 +179,7 @@ def test_published_table_of_bird(n, moment):
     assert kac.fourth_moment(2.0, n, algorithm="bird") == pytest.approx(moment, abs=5e-6)
 
 
-@pytest.mark.parametrize("n", [5, 7])
+@pytest.mark.parametrize("n", [5, 6])
 def test_algorithms_differ(n):
     """Negative control of the enumeration: every algorithm has a moment of its own."""
     values = [exactly(algorithm, n) for algorithm in ("poisson", "poisson_printed", "bird")]

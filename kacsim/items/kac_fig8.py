@@ -41,5 +41,5 @@ def draw(dataset):
             _corners.draw_image(axis, points, plotting.COLOURS[k], label)
         i, j = dataset.pair.values[stage]
         axis.set_title(f"after pair ({i}, {j})")
-        axis.legend(loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=2, frameon=False)
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=2, frameon=False)
     return figure

@@ -6,7 +6,6 @@
 #   results/report/report.html              everything, with the verdicts
 #
 # Each item is a target by name: `snakemake -c2 kac_fig3`.
-import re
 import shlex
 import sys
 
@@ -19,9 +18,10 @@ from kacsim.provenance import ROOT, source_hash
 configfile: ROOT / "config" / "config.yaml"
 
 
-# `kacsim` in a rule is the interpreter that runs Snakemake on this clone, installed or not.
+# `kacsim` in a rule is the interpreter that runs Snakemake on this clone, installed or not;
+# a job has one core, so the threads of its linear algebra would only cost their start.
 shell.prefix(
-    'kacsim() {{ PYTHONPATH=%s %s -m kacsim "$@"; }}; '
+    'kacsim() {{ OPENBLAS_NUM_THREADS=1 PYTHONPATH=%s %s -m kacsim "$@"; }}; '
     % (shlex.quote(str(ROOT)), shlex.quote(sys.executable))
 )
 
@@ -39,7 +39,6 @@ except plan.PlanError as error:
 
 
 wildcard_constraints:
-    case="|".join(map(re.escape, the_plan.cases)),
     item="|".join(items.NAMES),
     kernels="|".join(module.removesuffix(".py") for module in cases.KERNEL_MODULES),
 

@@ -119,6 +119,8 @@ SAMPLER_FILES = {
     "trap_literal": "boltzmann/literal_trap.py",
     "bkw_moment": "boltzmann/bkw_tree.py",
 }
+# Measured: a collision, or a node of a tree, with all that belongs to it.
+WORK_SECONDS = 3e-8
 KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
 
 
@@ -161,20 +163,25 @@ class Case:
             words += [flag(name), str(getattr(self, name))]
         return shlex.join(words)
 
-    def priority(self):
-        """Return a rank that starts the longest cases first: the logarithm of their work."""
+    def output(self):
+        """Return the file of the case's samples."""
+        return f"results/samples/{self.id}.nc"
+
+    def seconds(self):
+        """Return roughly how long the kernels take: the order of jobs, their size and limits."""
         p = self.parameters
-        work = float(self.n_draws * self.n_replicates)
+        draws = float(self.n_draws * self.n_replicates)
         if self.sampler == "kac_equilibrium":
-            work *= 20.0 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
+            work = 0.4 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
         elif self.sampler in LISTS:
             many = p.get("oversampling", 1.0)
             growth = 2.0 * (max(many) if isinstance(many, (list, tuple)) else many) - 1.0
+            growth *= 0.5 if self.sampler.startswith("trap") else 1.0
             probes = math.prod(len(p[name]) for name in LISTS[self.sampler]) / len(p["time"])
-            work *= probes * sum(math.exp(min(30.0, growth * time)) for time in p["time"])
+            work = probes * sum(math.exp(min(30.0, growth * time)) for time in p["time"])
         else:
-            work *= p["n_particles"] if p.get("engine") == "forward" else 6.0
-        return round(10.0 * math.log2(max(1.0, work)))
+            work = p["n_particles"] if p.get("engine") == "forward" else 6.0
+        return WORK_SECONDS * draws * work
 
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""

@@ -11,19 +11,37 @@ from kacsim import cases, plan
 from kacsim.checks import BudgetError, Problem
 
 USAGE_ERROR = 2
+JOIN = "--and"  # between the cases of one `sample` command
 
 
 def main(argv=None):
     """Run one command; return the exit status: 0, or 2 with one sentence on stderr."""
     from kacsim.store import StoreError
 
-    arguments = _parser().parse_args(argv)
+    requests = [_parser().parse_args(words) for words in _split(argv)]
     try:
-        arguments.run(arguments)
+        if len(requests) > 1:
+            _sample_all(requests)
+        else:
+            requests[0].run(requests[0])
     except (plan.PlanError, StoreError, BudgetError) as error:
         print(error, file=sys.stderr)
         return USAGE_ERROR
     return 0
+
+
+def _split(argv):
+    """Return the command as a list of commands: ``sample A --and B`` is two."""
+    words = sys.argv[1:] if argv is None else list(argv)
+    if words[:1] != ["sample"]:
+        return [words]
+    parts = [[]]
+    for word in words[1:]:
+        if word == JOIN:
+            parts.append([])
+        else:
+            parts[-1].append(word)
+    return [["sample", *part] for part in parts]
 
 
 def _parser():
@@ -118,6 +136,27 @@ def _plan(arguments):
 
 
 def _sample(arguments):
+    _sample_all([arguments])
+
+
+def _sample_all(requests):
+    """Draw cases one after the other; all are checked before the first is drawn."""
+    chosen = [_case_of(arguments) for arguments in requests]
+    from kacsim import sampling, store, times
+
+    for arguments in requests:
+        store.check_writable(arguments.output)
+    for arguments, case in zip(requests, chosen, strict=True):
+        sampling.load(case)
+        start = time.perf_counter()
+        variables = sampling.run(case)
+        print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
+        title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
+        store.write(variables, arguments.output, title=title, settings=case.settings())
+
+
+def _case_of(arguments):
+    """Return the case that the flags of `sample` describe."""
     names = cases.SAMPLERS[arguments.sampler]
     given = {name: getattr(arguments, name) for name in names}
     given = {name: value for name, value in given.items() if value is not None}
@@ -126,14 +165,7 @@ def _sample(arguments):
     problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
     if problems:
         raise plan.PlanError("\n".join(map(str, problems)))
-    from kacsim import sampling, store, times
-
-    title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
-    store.check_writable(arguments.output)
-    start = time.perf_counter()
-    variables = sampling.run(case)
-    print(times.drawn_sentence(case.n_draws * case.n_replicates, time.perf_counter() - start))
-    store.write(variables, arguments.output, title=title, settings=case.settings())
+    return case
 
 
 def _known_item(name):

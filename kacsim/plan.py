@@ -11,6 +11,7 @@ from pathlib import Path
 import yaml
 
 from kacsim import items
+from kacsim.batches import make_batches
 from kacsim.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
@@ -111,6 +112,7 @@ class Plan:
             problems += self._edge_problems(name)
         self._refuse(problems)
         self.cases = {case.id: case for cases in self.cases_of.values() for case in cases}
+        self.batches = make_batches(self.cases_of, self.config["batch_seconds"])
 
     def _settings_of(self, name):
         common = {key: self.config[key] for key in COMMON}

@@ -1,5 +1,6 @@
 """Run one case, whichever its sampler; memory does not grow with the number of draws."""
 
+import dataclasses
 import importlib
 
 from kacsim.cases import LISTS, SAMPLERS, make_case
@@ -20,6 +21,11 @@ def run(case, progress=None):
     """
     home = importlib.import_module(f"kacsim.{case.family}.sampling")
     return home.SAMPLERS[case.sampler](case, progress or (lambda done: None))
+
+
+def load(case):
+    """Import the sampler of a case and load its compiled kernels, which `run` then need not."""
+    run(dataclasses.replace(case, n_draws=2, n_replicates=1))
 
 
 def _tiny_cases():

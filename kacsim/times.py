@@ -8,9 +8,9 @@ STAGES = ("compile", "sample", "reduce", "draw", "report")
 DRAWN = re.compile(r"^drew .* in ([0-9.]+) s$", re.MULTILINE)
 
 
-def drawn_sentence(n_draws, seconds):
+def drawn_sentence(case, seconds):
     """Return the line that a sampler leaves in its log."""
-    return f"drew {n_draws} values in {seconds:.3f} s"
+    return f"drew {case.n_draws * case.n_replicates} values of {case.id} in {seconds:.3f} s"
 
 
 def _job_seconds(file):
@@ -19,8 +19,8 @@ def _job_seconds(file):
 
 
 def _kernel_seconds(file):
-    found = DRAWN.search(file.read_text(encoding="utf-8")) if file.exists() else None
-    return float(found[1]) if found else 0.0
+    found = DRAWN.findall(file.read_text(encoding="utf-8")) if file.exists() else []
+    return sum(map(float, found))
 
 
 def collect(folder="."):

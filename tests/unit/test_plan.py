@@ -96,7 +96,7 @@ def test_items_share_cases(full):
 
 def test_every_item_has_a_section_and_a_description():
     properties = yaml.safe_load(plan.SCHEMA.read_text(encoding="utf-8"))["properties"]
-    assert set(items.NAMES) | set(plan.COMMON) == set(properties)
+    assert set(items.NAMES) | set(plan.COMMON) | {"batch_seconds"} == set(properties)
 
 
 def leaves(rule, path=()):
@@ -156,6 +156,7 @@ def test_arguments_round_trip_through_the_command_line(full, monkeypatch, tmp_pa
         case_of("kac_equilibrium", n_particles=7, tolerance=1e-9, energy=0.1 + 0.2),
     ]
     seen = []
+    monkeypatch.setattr(sampling, "load", lambda case: None)
     monkeypatch.setattr(sampling, "run", seen.append)
     monkeypatch.setattr(store, "write", lambda *args, settings, **_: seen.append(settings))
     for case in [*full.cases.values(), *awkward]:
@@ -176,5 +177,5 @@ def test_sources_of_every_stage_exist(name, full):
 
 def test_longer_cases_start_first():
     small, large = case_of(n_particles=5), case_of(n_particles=500)
-    assert large.priority() > small.priority()
-    assert case_of(engine="ancestral").priority() < case_of().priority()
+    assert large.seconds() > small.seconds()
+    assert case_of(engine="ancestral").seconds() < case_of().seconds()

@@ -4,6 +4,7 @@ import re
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -28,13 +29,17 @@ class Project:
         answer = self.snakemake("--dry-run", *words)
         assert answer.returncode == 0, answer.stderr
         table = answer.stdout.split("Job stats:")[1:]
-        rows = re.findall(r"^(\w+) +(\d+)$", table[0].split("\n\n")[0], re.M) if table else []
-        return {rule: int(number) for rule, number in rows if rule != "total"}
+        rows = re.findall(r"^(\S+) +(\d+)$", table[0].split("\n\n")[0], re.M) if table else []
+        jobs = Counter()
+        for rule, number in rows:
+            jobs["sample" if rule.startswith("sample_") else rule] += int(number)
+        del jobs["total"]
+        return dict(jobs)
 
     def samples_planned(self, *words):
         """Return the cases that a dry run would sample."""
-        answer = self.snakemake("--dry-run", *words)
-        return set(re.findall(r"Sampling (\S+)", answer.stdout + answer.stderr))
+        answer = self.snakemake("--dry-run", "--printshellcmds", *words)
+        return set(re.findall(r"--output results/samples/(\S+)\.nc", answer.stdout + answer.stderr))
 
     def edit(self, file, old, new):
         """Replace the first occurrence of a text in a file of the copy."""

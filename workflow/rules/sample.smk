@@ -24,25 +24,29 @@ rule compile:
         "kacsim compile {wildcards.kernels}.py --output {output} > {log} 2>&1"
 
 
-rule sample:
-    """Draw one case: one algorithm, one set of parameters, all its replicates."""
-    input:
-        kernels=lambda wildcards: the_plan.cases[wildcards.case].compiled(),
-    output:
-        "results/samples/{case}.nc",
-    log:
-        "logs/sample/{case}.log",
-    benchmark:
-        "benchmarks/sample/{case}.tsv"
-    priority: lambda wildcards: the_plan.cases[wildcards.case].priority()
-    threads: 1
-    resources:
-        mem_mb=400,
-        runtime=60,
-    params:
-        recipe=lambda wildcards: the_plan.cases[wildcards.case].arguments(),
-        code=lambda wildcards: source_hash(*the_plan.cases[wildcards.case].sources()),
-    message:
-        "Sampling {wildcards.case}"
-    shell:
-        "kacsim sample {params.recipe} --output {output} > {log} 2>&1"
+# Short cases share a job; its outputs have no common wildcard, so each batch is a rule.
+for batch in the_plan.batches:
+
+    rule:
+        name:
+            f"sample_{batch.id}"
+        input:
+            kernels=batch.cases[0].compiled(),
+        output:
+            [case.output() for case in batch.cases],
+        log:
+            f"logs/sample/{batch.id}.log",
+        benchmark:
+            f"benchmarks/sample/{batch.id}.tsv"
+        priority: batch.priority()
+        threads: 1
+        resources:
+            mem_mb=400,
+            runtime=batch.minutes(),
+        params:
+            recipe=batch.arguments(),
+            code=source_hash(*batch.cases[0].sources()),
+        message:
+            f"Sampling {batch.description()}"
+        shell:
+            "kacsim sample {params.recipe} > {log} 2>&1"

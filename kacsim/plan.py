@@ -102,6 +102,7 @@ class Plan:
         self.config, wrong = complete(config, SCHEMA)
         self._refuse(wrong)
         self.settings = {name: self._settings_of(name) for name in items.NAMES}
+        self._refuse(self._own_problems())
         self.cases_of = {}
         problems = []
         for name in items.NAMES:
@@ -121,6 +122,14 @@ class Plan:
         if uses:
             settings["items"] = {used: self._settings_of(used) for used in uses}
         return settings
+
+    def _own_problems(self):
+        """Return what the items themselves find wrong with their settings."""
+        found = []
+        for name in items.NAMES:
+            check = getattr(items.load(name), "problems", lambda settings: [])
+            found += [((name, key), *rest) for key, *rest in check(self.settings[name])]
+        return found
 
     def _case_problems(self, name):
         """Return (path, value, sentence) of each wrong case of an item, traced to its key."""

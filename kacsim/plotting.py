@@ -3,13 +3,11 @@
 import math
 
 import matplotlib
-
-matplotlib.use("Agg")
-
 import numpy as np
-from matplotlib import pyplot, ticker
+from matplotlib import ticker
+from matplotlib.figure import Figure
 
-from kacsim.kac import exact
+from kacsim.items._lazy import exact
 from kacsim.store import replace_file
 
 # Okabe and Ito's colours, told apart by all common kinds of colour vision; markers differ too.
@@ -35,18 +33,12 @@ SINGLE_WIDTH = 5.0
 
 def panels(rows, columns, *, share_y=False, height=None, width=None, projection=None):
     """Return (figure, flat list of axes) in the project's style; sizes in inches."""
-    pyplot.rcParams.update(STYLE)
+    matplotlib.rcParams.update(STYLE)
     width = width or (SINGLE_WIDTH if columns == 1 else PANEL_WIDTH * columns)
     keywords = {"projection": projection} if projection else None
-    figure, axes = pyplot.subplots(
-        rows,
-        columns,
-        figsize=(width, (height or PANEL_HEIGHT + 0.4 * (columns == 1)) * rows),
-        sharey=share_y,
-        squeeze=False,
-        layout="constrained",
-        subplot_kw=keywords,
-    )
+    size = (width, (height or PANEL_HEIGHT + 0.4 * (columns == 1)) * rows)
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.subplots(rows, columns, sharey=share_y, squeeze=False, subplot_kw=keywords)
     return figure, list(axes.flat)
 
 
@@ -55,7 +47,7 @@ def points(axis, x, y, errors, k, label, *, line=True):
     axis.errorbar(
         np.asarray(x),
         np.asarray(y),
-        yerr=np.asarray(errors),
+        yerr=None if errors is None else np.asarray(errors),
         color=COLOURS[k],
         marker=MARKERS[k],
         ms=4,
@@ -134,4 +126,7 @@ def save(figure, path):
         "svg": {"Date": None, "Creator": None},
         "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
     }[suffix]
+    if figure.get_layout_engine() is not None:  # all formats share one layout, made once
+        figure.draw_without_rendering()
+        figure.set_layout_engine(None)
     replace_file(path, lambda name: figure.savefig(name, format=suffix, metadata=metadata))

@@ -32,7 +32,7 @@ def summary(sample, case_):
     return mean, np.sqrt(variance / n), variance, sample["nodes"].mean("replicate").values
 
 
-def table(samples, cases, axes, factor, exact):
+def table(samples, cases, axes, factor, exact, places=None):
     """Return estimates with errors beside the exact values.
 
     Parameters
@@ -42,6 +42,7 @@ def table(samples, cases, axes, factor, exact):
     axes : dict of the two probe axes, name -> values
     factor : float64[first, time], by which a realization is multiplied
     exact : float64[first, time]
+    places : dict size -> places of the case's times among all; the other times become nan
 
     Returns
     -------
@@ -49,16 +50,20 @@ def table(samples, cases, axes, factor, exact):
     share [size, *axes], exact[*axes], n_draws[size]
     """
     rows = []
-    for one in cases.values():
+    for size, one in cases.items():
         sample = samples[one.id]
         mean, error, variance, nodes = summary(sample, one)
         total = sample["mean"].sum("replicate").values * one.n_draws
         share = sample["largest"].max("replicate").values / np.where(total > 0, total, np.nan)
+        mean, error, spread, nodes, share = (
+            _spread_out(part, exact.shape, places and places[size])
+            for part in (mean, error, np.sqrt(variance), nodes, share)
+        )
         rows.append(
             {
                 "value": factor * mean,
                 "error": factor * error,
-                "spread": factor * np.sqrt(variance),
+                "spread": factor * spread,
                 "actual_error": factor * mean - exact,
                 "recursion": nodes,
                 "largest_share": share,
@@ -82,6 +87,25 @@ def table(samples, cases, axes, factor, exact):
     variables["n_draws"] = store.described(amounts, ("size",), "realizations per point")
     coords = {"size": list(cases)} | {name: list(values) for name, values in axes.items()}
     return xr.Dataset(variables, coords=coords)
+
+
+def _spread_out(part, shape, places):
+    """Return a table with the columns of `part` at their places, nan elsewhere."""
+    if places is None:
+        return part
+    whole = np.full(shape, np.nan)
+    whole[:, places] = part
+    return whole
+
+
+def draw_sizes(axis, dataset, x, variable, error=None, factor=1.0):
+    """Draw a variable at all numbers of realizations, with bars or as plain symbols."""
+    for k in range(dataset.sizes["size"]):
+        here = dataset.isel(size=k)
+        seen = np.isfinite(here[variable].values)
+        label = f"{int(here.n_draws):,} realizations"
+        bars = None if error is None else (here[error] * factor)[seen]
+        plotting.points(axis, x[seen], (here[variable] * factor)[seen], bars, k, label, line=False)
 
 
 def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):

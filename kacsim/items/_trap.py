@@ -8,16 +8,38 @@ from kacsim.items._lazy import np
 STATE = ("breathing", "start_phase", "coupling", "max_nodes")
 
 
+def problems(settings):
+    """Return (key, value, sentence) if the larger run has times that the figure has not."""
+    if set(settings["large_turn"]) - set(settings["turn"]):
+        return [("large_turn", settings["large_turn"], f"must be among turn, {settings['turn']}")]
+    return []
+
+
 def cases_by_size(sampler, settings, **choices):
-    """Return size -> case: radius by time, the time given in turns of the trap."""
-    times = [2.0 * math.pi * turn for turn in settings["turn"]]
+    """Return size -> case: radius by time, the time given in turns of the trap.
+
+    The large size has times of its own: those where it takes less than a minute.
+    """
     common = {key: settings[key] for key in STATE} | choices
+    found = {}
+    for size, key in zip(_probes.SIZES, ("turn", "large_turn"), strict=True):
+        times = [2.0 * math.pi * turn for turn in settings[key]]
+        where = {"radius": settings["radius"], "time": times}
+        found[size] = _probes.case(settings, sampler, size, **where, **common)
+    return found
+
+
+def places(settings):
+    """Return size -> places of its times among all times."""
     return {
-        size: _probes.case(settings, sampler, size, radius=settings["radius"], time=times, **common)
-        for size in _probes.SIZES
+        size: [settings["turn"].index(turn) for turn in settings[key]]
+        for size, key in zip(_probes.SIZES, ("turn", "large_turn"), strict=True)
     }
 
 
-def batches(samples, cases):
+def batches(samples, cases, places, shape):
     """Return the worst disagreement of replicates' means, float64[size, radius, turn]."""
-    return np.stack([_probes.worst_batch(samples[one.id]) for one in cases.values()])
+    found = np.full((len(cases), *shape), np.nan)
+    for k, (size, one) in enumerate(cases.items()):
+        found[k][:, places[size]] = _probes.worst_batch(samples[one.id])
+    return found

@@ -3,6 +3,8 @@
 from kacsim.items import _probes, _trap
 from kacsim.items._lazy import np, plotting, store, trap
 
+problems = _trap.problems
+
 
 def cases(settings):
     """Return every radius at both times, at both numbers of realizations."""
@@ -18,10 +20,11 @@ def reduce(samples, settings):
     size = trap.swelling(phase, settings["breathing"], settings["start_phase"])
     exact = chi.sf(np.array(settings["radius"], dtype=float)[:, None] / np.sqrt(size), 3)
     axes = {"radius": settings["radius"], "turn": settings["turn"]}
-    table = _probes.table(samples, found, axes, np.ones(exact.shape), exact)
+    places = _trap.places(settings)
+    table = _probes.table(samples, found, axes, np.ones(exact.shape), exact, places)
     return table.assign(
         batch=store.described(
-            _trap.batches(samples, found),
+            _trap.batches(samples, found, places, exact.shape),
             ("size", "radius", "turn"),
             "largest |z| of the replicates' means",
         )
@@ -33,20 +36,23 @@ def draw(dataset):
     count = dataset.sizes["turn"]
     figure, axes = plotting.panels(3, count, height=2.1)
     for k, turn in enumerate(dataset.turn.values):
-        here = dataset.sel(turn=turn).isel(size=0)
+        here = dataset.sel(turn=turn)
+        here = here.assign(
+            relative=here.error / here.exact, wrong=np.abs(here.actual_error) / here.exact
+        )
         radius, column = here.radius.values, axes[k::count]
-        label = f"{int(here.n_draws):,} realizations"
-        plotting.points(column[0], radius, here.value, here.error, 0, label, line=False)
+        _probes.draw_sizes(column[0], here, radius, "value", "error")
         column[0].plot(radius, here.exact, color="black", lw=1, label="breathing = ballistic")
-        column[1].plot(radius, here.error / here.exact, "o", color=plotting.COLOURS[0], ms=4)
-        wrong = np.abs(here.actual_error) / here.exact
-        column[1].plot(radius, wrong, "^", mfc="none", color=plotting.COLOURS[0], ms=4)
-        column[2].plot(radius, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
+        _probes.draw_sizes(column[1], here, radius, "relative")
+        for j in range(here.sizes["size"]):
+            wrong = here.wrong.isel(size=j)
+            column[1].plot(radius, wrong, "x", color=plotting.COLOURS[j], ms=4)
+        _probes.draw_sizes(column[2], here, radius, "recursion")
         for axis in column:
             axis.set_yscale("log")
         column[0].set_title(f"$\\omega t$ = {2 * turn:g}$\\pi$")
         column[0].set_ylabel("fraction $|r| > r_0$")
-        column[1].set_ylabel("relative s.d. (circles),\nerror (triangles)")
+        column[1].set_ylabel("standard error / value\n(crosses: actual error)")
         column[2].set_ylabel("mean recursion")
         column[2].set_xlabel("$r_0\\,\\omega/c_{q,eq}$")
     axes[0].legend()

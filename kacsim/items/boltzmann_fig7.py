@@ -35,14 +35,14 @@ def draw(dataset):
     count = dataset.sizes["majorant"]
     figure, axes = plotting.panels(3, count, height=2.1)
     for k, majorant in enumerate(dataset.majorant.values):
-        here = dataset.sel(majorant=majorant).isel(size=0)
+        here = dataset.sel(majorant=majorant)
+        here = here.assign(relative=here.spread**2 / here.exact**2)
         time, column = here.time.values, axes[k::count]
-        label = f"{int(here.n_draws):,} realizations"
-        plotting.points(column[0], time, here.value, here.error, 0, label, line=False)
+        _probes.draw_sizes(column[0], here, time, "value", "error")
         column[0].plot(time, here.exact, color="black", lw=1, label="exact")
-        column[1].plot(time, here.spread**2 / here.exact**2, "o", color=plotting.COLOURS[0], ms=4)
+        _probes.draw_sizes(column[1], here, time, "relative")
         column[1].plot(time, here.variance_exact / here.exact**2, color="black", lw=1)
-        column[2].plot(time, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
+        _probes.draw_sizes(column[2], here, time, "recursion")
         column[2].plot(time, here.recursion_exact, color="black", lw=1)
         column[2].set_yscale("log")
         column[0].set_title(f"$\\hat\\nu$ = {majorant:g} $\\alpha f_0$")

@@ -10,6 +10,9 @@ LINES = {
 }
 
 
+problems = _trap.problems
+
+
 def cases(settings):
     """Return both places at every time, at the published and the large number of realizations."""
     return list(_trap.cases_by_size("trap", settings).values())
@@ -25,7 +28,8 @@ def reduce(samples, settings):
     breathing = trap.breathing_density(radius, speed, 0.0, phase, *state)
     free = trap.ballistic_density(radius, speed, 0.0, phase, *state)
     axes = {"radius": settings["radius"], "turn": settings["turn"]}
-    table = _probes.table(samples, found, axes, breathing, breathing)
+    places = _trap.places(settings)
+    table = _probes.table(samples, found, axes, breathing, breathing, places)
     described, dims = store.described, ("radius", "turn")
     turns = np.linspace(0.0, max(settings["turn"]), N_FINE)
     fine = 2.0 * np.pi * turns
@@ -43,7 +47,9 @@ def reduce(samples, settings):
         fine_turn=("fine_turn", turns, {"long_name": "omega t / 2 pi", "units": "1"}),
         ballistic=described(free, dims, "f without collisions"),
         batch=described(
-            _trap.batches(samples, found), ("size", *dims), "largest |z| of the replicates' means"
+            _trap.batches(samples, found, places, breathing.shape),
+            ("size", *dims),
+            "largest |z| of the replicates' means",
         ),
     )
 
@@ -53,19 +59,19 @@ def draw(dataset):
     count = dataset.sizes["radius"]
     figure, axes = plotting.panels(3, count, height=2.1)
     for k, radius in enumerate(dataset.radius.values):
-        here = dataset.sel(radius=radius).isel(size=0)
+        here = dataset.sel(radius=radius)
         turn, column = here.turn.values, axes[k::count]
-        label = f"{int(here.n_draws):,} realizations"
-        plotting.points(column[0], turn, here.value, here.error, 0, label, line=False)
+        _probes.draw_sizes(column[0], here, turn, "value", "error")
         for name, style in LINES.items():
             column[0].plot(here.fine_turn, here[name], lw=1, **style)
-        column[1].plot(turn, here.error / here.value, "o", color=plotting.COLOURS[0], ms=4)
-        column[2].plot(turn, here.recursion, "o", color=plotting.COLOURS[0], ms=4)
+        relative = here.assign(relative=here.error / here.value)
+        _probes.draw_sizes(column[1], relative, turn, "relative")
+        _probes.draw_sizes(column[2], here, turn, "recursion")
         for axis in column[1:]:
             axis.set_yscale("log")
         column[0].set_title(f"$r$ = {radius:g} $c_{{q,eq}}/\\omega$")
         column[0].set_ylabel("$f\\,c_{q,eq}^6/(n\\omega^3)$")
-        column[1].set_ylabel("relative s.d.")
+        column[1].set_ylabel("standard error / value")
         column[2].set_ylabel("mean recursion")
         column[2].set_xlabel("$\\omega t/2\\pi$")
     axes[0].legend()

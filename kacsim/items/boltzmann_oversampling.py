@@ -1,107 +1,110 @@
-"""Study: cost times variance against oversampling, everywhere or only near the probe."""
+"""Study: cost times variance against oversampling, everywhere or only early in the tree."""
+
+import math
 
 from kacsim.cases import make_case
-from kacsim.items._lazy import bkw, np, plotting, store, xr
+from kacsim.items._lazy import bkw, estimate, np, plotting, store, xr
 
 FINE = 41
+SCHEMES = ("everywhere", "early")
 
 
-def _uniform_case(settings, time):
-    return _case(settings, settings["oversampling"], time, 0.0)
-
-
-def _case(settings, oversampling, time, onset):
+def _case(settings, time, oversampling, onset):
+    """Return realizations at about the same cost, whatever the tree: a number of nodes."""
+    growth = (2.0 * oversampling - 1.0) * max(0.0, time - onset) + min(time, onset)
+    n_draws = max(settings["min_draws"], round(settings["n_nodes"] * math.exp(-growth)))
     return make_case(
         "bkw_moment",
-        oversampling=oversampling,
+        oversampling=[oversampling],
         time=[time],
         onset=onset,
-        n_draws=settings["n_draws"],
+        n_draws=n_draws,
         n_replicates=settings["n_replicates"],
         seed=settings["seed"],
         max_nodes=settings["max_nodes"],
     )
 
 
-def predicted(time, oversampling, onset=0.0):
-    """Return (excess variance G - H, nodes, their product) by the differential equations."""
-    excess = bkw.second_moment_oversampled(time, oversampling, onset) - float(bkw.mean_square(time))
-    nodes = float(bkw.mean_recursion(time, oversampling, onset))
-    return excess, nodes, excess * nodes
-
-
-def _late_case(settings, time):
-    return _case(
-        settings, [settings["late_oversampling"]], time, settings["late_onset_share"] * time
-    )
+def _grid(settings):
+    """Return place -> case: every oversampling at every time, everywhere and early."""
+    onsets = (0.0, settings["onset"])
+    return {
+        (i, j, k): _case(settings, time, m, onset)
+        for i, onset in enumerate(onsets)
+        for j, time in enumerate(settings["time"])
+        for k, m in enumerate(settings["oversampling"])
+    }
 
 
 def cases(settings):
-    """Return uniform oversampling at every time, and the published choice of a late one."""
-    times = settings["time"]
-    return [f(settings, time) for time in times for f in (_uniform_case, _late_case)]
+    """Return both schemes at every time and every oversampling."""
+    return list(_grid(settings).values())
+
+
+def predicted(time, oversampling, onset=0.0):
+    """Return nodes times excess variance G - H, by the differential equations of both."""
+    excess = bkw.second_moment_oversampled(time, oversampling, onset) - float(bkw.mean_square(time))
+    return excess * float(bkw.mean_recursion(time, oversampling, onset))
+
+
+def _product(sample, time):
+    """Return the measured nodes times excess variance, over replicates."""
+    excess = sample["mean_square"].values.ravel() - float(bkw.mean_square(time))
+    return estimate.of_replicates(excess * sample["nodes"].values.mean())
 
 
 def reduce(samples, settings):
-    """Return measured and predicted excess variance, nodes and their product."""
-    times, ms = settings["time"], np.array(settings["oversampling"], dtype=float)
-    shape = (len(times), ms.size)
-    measured = {name: np.full(shape, np.nan) for name in ("excess", "nodes")}
-    late = np.full((len(times), 2), np.nan)
-    for i, time in enumerate(times):
-        floor = float(bkw.mean_square(time))
-        sample = samples[_uniform_case(settings, time).id]
-        measured["excess"][i] = sample["mean_square"].mean("replicate").values[:, 0] - floor
-        measured["nodes"][i] = sample["nodes"].mean("replicate").values[:, 0]
-        other = samples[_late_case(settings, time).id]
-        late[i] = float(other["mean_square"].mean()) - floor, float(other["nodes"].mean())
+    """Return measured and predicted products of cost and excess variance."""
+    times, ms = settings["time"], settings["oversampling"]
+    onsets = (0.0, settings["onset"])
+    shape = (len(SCHEMES), len(times), len(ms))
+    product, error, exact = np.full(shape, np.nan), np.full(shape, np.nan), np.full(shape, np.nan)
+    for place, case in _grid(settings).items():
+        i, j, k = place
+        found = _product(samples[case.id], times[j])
+        product[place], error[place] = found.value, found.standard_error
+        exact[place] = predicted(times[j], ms[k], onsets[i])
     fine = np.linspace(1.0, settings["largest_oversampling"], FINE)
-    many = settings["predicted_time"]
-    curve = np.array([[predicted(time, m)[2] for m in fine] for time in many])
-    m, share = settings["late_oversampling"], settings["late_onset_share"]
-    described, two = store.described, ("time", "oversampling")
-    product = measured["excess"] * measured["nodes"]
+    curve = np.array([[[predicted(t, m, onset) for m in fine] for t in times] for onset in onsets])
+    described, three, two = store.described, ("scheme", "time", "oversampling"), ("scheme", "time")
     return xr.Dataset(
         {
-            "excess": described(measured["excess"], two, "measured excess variance G - H"),
-            "nodes": described(measured["nodes"], two, "measured nodes of one realization"),
-            "product": described(product, two, "measured cost times variance"),
-            "late_product": described(
-                late[:, 0] * late[:, 1], ("time",), "cost times variance, oversampled late only"
-            ),
-            "late_predicted": described(
-                [predicted(time, m, share * time)[2] for time in times], ("time",), "prediction"
-            ),
-            "curve": described(curve, ("predicted_time", "fine"), "predicted cost times variance"),
-            "best": described(
-                fine[np.argmin(curve, axis=1)], ("predicted_time",), "best uniform oversampling"
-            ),
-            "best_product": described(
-                curve.min(axis=1), ("predicted_time",), "its cost times variance"
-            ),
+            "product": described(product, three, "measured cost times excess variance"),
+            "product_error": described(error, three, "standard error"),
+            "product_exact": described(exact, three, "predicted cost times excess variance"),
+            "curve": described(curve, (*two, "fine"), "predicted cost times excess variance"),
+            "best": described(fine[np.argmin(curve, axis=-1)], two, "best oversampling"),
+            "best_product": described(curve.min(axis=-1), two, "its cost times variance"),
         },
-        coords={"time": times, "oversampling": ms, "fine": ("fine", fine), "predicted_time": many},
+        coords={"scheme": list(SCHEMES), "time": times, "oversampling": ms, "fine": fine},
     )
 
 
 def draw(dataset):
     """Draw cost times variance against oversampling, a colour per time."""
     figure, (axis,) = plotting.panels(1, 1)
+    for k, time in enumerate(dataset.time.values):
+        colour = plotting.COLOURS[k]
+        for scheme, dash, fill in zip(SCHEMES, ("-", "--"), (colour, "white"), strict=True):
+            here = dataset.sel(time=time, scheme=scheme)
+            label = f"$t$ = {time:g}" if scheme == SCHEMES[0] else None
+            seen = np.isfinite(here.curve.values)
+            axis.plot(dataset.fine[seen], here.curve[seen], dash, color=colour, lw=1, label=label)
+            seen = np.isfinite(here.product_exact.values)
+            axis.errorbar(
+                dataset.oversampling[seen],
+                here["product"][seen],
+                here.product_error[seen],
+                fmt=plotting.MARKERS[k],
+                color=colour,
+                mfc=fill,
+                ms=4,
+                elinewidth=0.8,
+            )
     settings = dataset.attrs["settings"]
-    for k, time in enumerate(dataset.predicted_time.values):
-        here, colour = dataset.sel(predicted_time=time), plotting.COLOURS[k]
-        finite = np.isfinite(here.curve.values)
-        label = f"$t$ = {time:g}, best $m$ = {float(here.best):.2f}"
-        axis.plot(dataset.fine[finite], here.curve[finite], color=colour, lw=1, label=label)
-        if time not in dataset.time.values:
-            continue
-        here = dataset.sel(time=time)
-        axis.plot(dataset.oversampling, here["product"], plotting.MARKERS[k], color=colour, ms=4)
-        axis.plot(
-            settings["late_oversampling"], here.late_product, "*", color=colour, ms=9, mec="black"
-        )
+    axis.plot([], [], "k--", lw=1, label=f"only for $t' >$ {settings['onset']:g} (open)")
     axis.set_yscale("log")
-    axis.set_xlabel("oversampling $m$ (stars: only late)")
+    axis.set_xlabel("oversampling $m$")
     axis.set_ylabel("nodes × excess variance")
     axis.legend()
     return figure

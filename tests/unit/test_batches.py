@@ -9,7 +9,7 @@ from kacsim.batches import make_batches
 from kacsim.cases import make_case
 from kacsim.provenance import ROOT
 
-SECONDS = 20.0
+SECONDS = 30.0
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,133 @@
+"""Study: Figs. 9 and 10 of the Boltzmann paper carried on in time, until they give out."""
+
+import math
+
+from kacsim.cases import make_case
+from kacsim.items import _trap
+from kacsim.items._lazy import np, plotting, store, xr
+
+SAMPLERS = {"trap": "density_radius", "trap_fraction": "fraction_radius"}
+
+
+def problems(settings):
+    """Return (key, value, sentence) of each setting that does not fit another."""
+    if len(settings["n_draws"]) != len(settings["turn"]):
+        return [("n_draws", settings["n_draws"], "must have one number per value of turn")]
+    return []
+
+
+def _grid(settings):
+    """Return (sampler, place of the turn) -> case: fewer realizations of larger trees."""
+    found = {}
+    for sampler, key in SAMPLERS.items():
+        for k, (turn, n_draws) in enumerate(
+            zip(settings["turn"], settings["n_draws"], strict=True)
+        ):
+            found[sampler, k] = make_case(
+                sampler,
+                radius=settings[key],
+                time=[2.0 * math.pi * turn],
+                n_draws=n_draws,
+                n_replicates=settings["n_replicates"],
+                seed=settings["seed"],
+                **{name: settings[name] for name in _trap.STATE},
+            )
+    return found
+
+
+def cases(settings):
+    """Return both algorithms at every time, a case each."""
+    return list(_grid(settings).values())
+
+
+def _measures(sample, n_draws):
+    """Return name -> float64[radius]: what tells whether the error bars can be believed."""
+    one = sample.isel(time=0)
+    mean, square = one["mean"].values, one["mean_square"].values
+    n_batches = mean.shape[1]
+    total = mean.sum(axis=1)
+    variance = np.maximum(square - mean**2, 0.0) / n_draws * (n_draws / max(1, n_draws - 1))
+    others = (total[:, None] - mean) / (n_batches - 1)
+    others_variance = (variance.sum(axis=1)[:, None] - variance) / (n_batches - 1) ** 2
+    gap = np.abs(mean - others) / np.sqrt(np.maximum(variance + others_variance, 1e-300))
+    return {
+        "value": total / n_batches,
+        "error": np.sqrt(variance.mean(axis=1) / n_batches),
+        "recursion": one["nodes"].values.mean(axis=1),
+        "largest_share": one["largest"].values.max(axis=1) / (total * n_draws),
+        "effective_share": total**2 / (n_batches * square.sum(axis=1)),
+        "coverage": (gap < 1.0).mean(axis=1),
+    }
+
+
+def reduce(samples, settings):
+    """Return estimates, recursion and three measures of reliability at every time."""
+    from scipy import special
+
+    texts = {
+        "value": "mean of the realizations, relative to the breathing state for the density",
+        "error": "standard error from the sample variance",
+        "recursion": "mean number of t' drawings of one realization",
+        "largest_share": "share of the largest realization in the sum",
+        "effective_share": "effective sample size, share of the realizations",
+        "coverage": "share of batches whose bar of one sigma covers the mean of the others",
+    }
+    turns = settings["turn"]
+    labels = [(sampler, radius) for sampler, key in SAMPLERS.items() for radius in settings[key]]
+    tables = {name: np.full((len(labels), len(turns)), np.nan) for name in texts}
+    for (sampler, k), case in _grid(settings).items():
+        rows = [row for row, label in enumerate(labels) if label[0] == sampler]
+        for name, column in _measures(samples[case.id], case.n_draws).items():
+            tables[name][rows, k] = column
+    dims, described = ("probe", "turn"), store.described
+    variables = {name: described(tables[name], dims, text) for name, text in texts.items()}
+    growth = np.diff(np.log(tables["recursion"]), axis=1)[:, -1] / (turns[-1] - turns[-2])
+    room = np.log(settings["max_nodes"] / tables["recursion"][:, -1])
+    n_batches = settings["n_replicates"]
+    # Student's law: the share of right bars that cover depends on the realizations of a batch.
+    nominal = 2.0 * special.stdtr(np.array(settings["n_draws"]) - 1.0, 1.0) - 1.0
+    spread = np.sqrt(nominal * (1.0 - nominal) / n_batches)
+    variables |= {
+        "sampler": described([sampler for sampler, _ in labels], ("probe",), "algorithm"),
+        "radius": described([radius for _, radius in labels], ("probe",), "radius"),
+        "growth": described(np.exp(growth), ("probe",), "factor of the recursion in one turn"),
+        "last_turn": described(
+            turns[-1] + room / growth, ("probe",), "turn where the mean tree fills the budget"
+        ),
+        "n_draws": described(
+            [n * n_batches for n in settings["n_draws"]], ("turn",), "realizations"
+        ),
+        "nominal": described(nominal, ("turn",), "coverage if the bars are right"),
+        "coverage_error": described(
+            spread, ("turn",), "standard deviation of the coverage if they are"
+        ),
+    }
+    return xr.Dataset(variables, coords={"turn": turns})
+
+
+def draw(dataset):
+    """Draw values and recursion, and the three measures of reliability, against time."""
+    figure, axes = plotting.panels(2, 2)
+    turn = dataset.turn.values
+    panels = (("value", "error"), ("recursion", None), ("effective_share", None))
+    for k in range(dataset.sizes["probe"]):
+        here = dataset.isel(probe=k)
+        what = "$f$" if here.sampler == "trap" else "fraction"
+        label = f"{what}, $r$ = {float(here.radius):g}"
+        for axis, (name, error) in zip(axes, panels, strict=False):
+            bars = None if error is None else here[error]
+            plotting.points(axis, turn, here[name], bars, k, label)
+        style = {"color": plotting.COLOURS[k], "marker": plotting.MARKERS[k], "ms": 4, "lw": 0.8}
+        axes[2].plot(turn, here.largest_share, ls=":", mfc="white", **style)
+        plotting.points(axes[3], turn, here.coverage, dataset.coverage_error, k, label, line=False)
+    axes[3].plot(turn, dataset.nominal, color="0.4", lw=1, label="if the bars are right")
+    names = ("value", "mean recursion", "effective share (solid),\nlargest share (dotted)")
+    for axis, name in zip(axes, (*names, "coverage of $\\pm\\sigma$"), strict=True):
+        axis.set_ylabel(name)
+        axis.set_xlabel("$\\omega t/2\\pi$")
+    axes[3].set_ylim(0, 1)
+    for axis in axes[:3]:
+        axis.set_yscale("log")
+    axes[1].legend()
+    axes[3].legend(handles=axes[3].lines[-1:], loc="lower left")
+    return figure

@@ -87,7 +87,11 @@ def reduce(samples, settings):
     # Student's law: the share of right bars that cover depends on the realizations of a batch.
     nominal = 2.0 * special.stdtr(np.array(settings["n_draws"]) - 1.0, 1.0) - 1.0
     spread = np.sqrt(nominal * (1.0 - nominal) / n_batches)
+    believed = np.cumprod(tables["largest_share"] <= settings["largest_share"], axis=1)
     variables |= {
+        "n_believed": described(
+            believed.sum(axis=1), ("probe",), "times before one realization outweighs the limit"
+        ),
         "sampler": described([sampler for sampler, _ in labels], ("probe",), "algorithm"),
         "radius": described([radius for _, radius in labels], ("probe",), "radius"),
         "growth": described(np.exp(growth), ("probe",), "factor of the recursion in one turn"),
@@ -128,6 +132,9 @@ def draw(dataset):
     axes[3].set_ylim(0, 1)
     for axis in axes[:3]:
         axis.set_yscale("log")
+    limit = dataset.attrs["settings"]["largest_share"]
+    axes[2].axhline(limit, color="0.4", lw=1, label="limit of the largest share")
+    axes[2].legend(handles=axes[2].lines[-1:], loc="lower right")
     axes[1].legend()
     axes[3].legend(handles=axes[3].lines[-1:], loc="lower left")
     return figure

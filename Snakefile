@@ -8,6 +8,7 @@
 # Each item is a target by name: `snakemake -c2 kac_fig3`.
 import shlex
 import sys
+import time
 
 sys.path.insert(0, workflow.basedir)
 
@@ -25,6 +26,7 @@ shell.prefix(
     % (shlex.quote(str(ROOT)), shlex.quote(sys.executable))
 )
 
+START = time.time()
 FORMATS = ("png", "svg", "pdf")
 # Messages name the last file that sets a key; those of the command line come last.
 CONFIG_FILES = sorted(
@@ -56,4 +58,4 @@ include: "workflow/rules/report.smk"
 
 
 onsuccess:
-    shell("kacsim times")
+    shell(f"kacsim times --since {START}")

@@ -23,25 +23,28 @@ def _kernel_seconds(file):
     return sum(map(float, found))
 
 
-def collect(folder="."):
+def collect(folder=".", since=0.0):
     """Return stage -> list of (job, seconds, seconds in kernels), longest first.
 
     Parameters
     ----------
     folder : where ``benchmarks`` and ``logs`` lie
+    since : jobs that ended before this time are left out, seconds since 1970
     """
     root = Path(folder)
     found = {stage: [] for stage in STAGES}
     for file in (root / "benchmarks").rglob("*.tsv"):
+        if file.stat().st_mtime < since:
+            continue
         job = Path(str(file.relative_to(root / "benchmarks")).removesuffix(".tsv"))
         kernels = _kernel_seconds(root / "logs" / f"{job}.log")
         found[job.parts[0]].append((str(job), _job_seconds(file), kernels))
     return {stage: sorted(jobs, key=lambda job: -job[1]) for stage, jobs in found.items() if jobs}
 
 
-def table(folder="."):
+def table(folder=".", since=0.0):
     """Return the summary as text: seconds per stage, share outside kernels, longest jobs."""
-    stages = collect(folder)
+    stages = collect(folder, since)
     lines = [f"{'stage':10}{'jobs':>6}{'seconds':>10}{'in kernels':>12}"]
     everything = [job for jobs in stages.values() for job in jobs]
     for stage, jobs in [*stages.items(), ("all", everything)]:

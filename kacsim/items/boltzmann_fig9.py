@@ -74,5 +74,5 @@ def draw(dataset):
         column[1].set_ylabel("standard error / value")
         column[2].set_ylabel("mean recursion")
         column[2].set_xlabel("$\\omega t/2\\pi$")
-    axes[0].legend()
+    plotting.legends_above(axes[:1])
     return figure

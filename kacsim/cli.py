@@ -75,7 +75,9 @@ def _parser():
     one.set_defaults(run=_compile)
     one = commands.add_parser("times", help="show where the time of the last run went")
     one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
-    one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970: later jobs only")
+    one.add_argument(
+        "--since", type=_float, default=0.0, help="seconds since 1970: later jobs only"
+    )
     one.set_defaults(run=_times)
     one = commands.add_parser("benchmark", help="measure the kernels, as ratios in one run")
     one.add_argument("--repeats", type=int, default=5, help="runs whose median counts")

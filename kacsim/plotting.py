@@ -127,6 +127,6 @@ def save(figure, path):
         "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
     }[suffix]
     if figure.get_layout_engine() is not None:  # all formats share one layout, made once
-        figure.draw_without_rendering()
+        figure.get_layout_engine().execute(figure)
         figure.set_layout_engine(None)
     replace_file(path, lambda name: figure.savefig(name, format=suffix, metadata=metadata))

@@ -179,8 +179,8 @@ class Plan:
             except PlanError:
                 continue
             for key in [key for key in path if isinstance(key, str)]:
-                content = content.get(key) if isinstance(content, dict) else None
-            if content is not None:
+                content = content.get(key, MISSING) if isinstance(content, dict) else MISSING
+            if content is not MISSING:
                 return file
         return self.files[0]
 

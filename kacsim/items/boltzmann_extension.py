@@ -81,7 +81,7 @@ def reduce(samples, settings):
             tables[name][rows, k] = column
     dims, described = ("probe", "turn"), store.described
     variables = {name: described(tables[name], dims, text) for name, text in texts.items()}
-    growth = np.diff(np.log(tables["recursion"]), axis=1)[:, -1] / (turns[-1] - turns[-2])
+    growth = np.polyfit(turns, np.log(tables["recursion"]).T, 1)[0]
     room = np.log(settings["max_nodes"] / tables["recursion"][:, -1])
     n_batches = settings["n_replicates"]
     # Student's law: the share of right bars that cover depends on the realizations of a batch.

@@ -52,6 +52,9 @@ SETTINGS = [
     ("kac_fig1: 3", "kac_fig1 = 3", "object"),
     ("kac_fig1: [1]", "kac_fig1 = [1]", "object"),
     ("kac_fig1:", "kac_fig1 = None", "object"),
+    ("batch_seconds: -1", "batch_seconds = -1", "at least 0"),
+    ("boltzmann_fig9: {large_turn: [7.0]}", "boltzmann_fig9.large_turn = [7.0]", "among turn"),
+    ("boltzmann_extension: {n_draws: [5]}", "boltzmann_extension.n_draws = [5]", "per value of"),
 ]
 FILES = [
     ("", "is empty"),

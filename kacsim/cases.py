@@ -67,6 +67,48 @@ LISTS = {
         "bkw_moment",
     )
 }
+# What each sampler draws, and what each parameter means: the help of the command line.
+DRAWS = {
+    "kac": "v_1 at a time, by one algorithm of the Kac paper",
+    "kac_equilibrium": "v_1 at equilibrium, epsilon-perfect, with coupling times",
+    "kac_corners": "the distances of the corners before they meet",
+    "kac_probe": "estimates of f(v, t) of the Kac equation",
+    "bkw": "estimates of f(c; t), Algorithm 2",
+    "bkw_fraction": "estimates of a high-energy fraction, Algorithm 3",
+    "bkw_tree": "trees of Algorithm 1 with their branches",
+    "bkw_literal": "estimates of f(c; t) by plain recursion in vectors",
+    "bkw_moment": "estimates of f(c; t)/M at velocities drawn from M",
+    "extinction": "estimates of eq. (20), Algorithm 4",
+    "trap": "estimates of f(r; c; t) in the trap, Algorithms 5 and 6",
+    "trap_fraction": "estimates of the fraction beyond a radius, Algorithm 7",
+    "trap_energy": "estimates of the mechanical energy beyond a radius",
+    "trap_literal": "estimates in the trap by plain recursion in vectors",
+}
+MEANINGS = {
+    "algorithm": ", ".join(checks.ALGORITHMS),
+    "engine": "ancestral (default) or forward",
+    "n_particles": "number of particles; inf for the ancestral poisson",
+    "time": "time t of the Kac paper; of trees in mean collision times, of the trap in 1 / omega",
+    "time_step": "time step of the algorithms of Nanbu and of Nanbu and Babovsky",
+    "collision_rate": "collisions of one particle per time, sqrt(pi)/2 in the paper",
+    "keep_above": "keep the first values of |v_1| above this",
+    "tolerance": "epsilon of the perfect sampler",
+    "energy": "energy of all particles, 3 N / 2 by default",
+    "speed": "speeds of the probes, in RMS velocities per axis",
+    "threshold": "thresholds, in RMS velocities per axis",
+    "oversampling": "mean number of sub-estimates that replace each one",
+    "onset": "collisions later than this time are oversampled",
+    "max_nodes": "budget of nodes of one tree",
+    "initial": "state at the start",
+    "majorant": "raised collision frequencies over alpha f0",
+    "radius": "radii of the probes, in c_eq / omega",
+    "breathing": "amplitude eps of the breathing state",
+    "start_phase": "phase phi0 of the breathing state",
+    "coupling": "n kappa omega^2 / c_eq^3",
+    "majorant_factor": "factor on the raised collision frequency",
+    "spread": "width of the law of c* over that of the breathing state",
+    "anisotropy": "departure of the law of u' from the isotropic one",
+}
 DEFAULTS = {
     "time_step": None,
     "collision_rate": RATE,

@@ -1,33 +1,68 @@
-"""The command line: parse, call, write. No science here."""
+"""The command line: parse and call. No science here."""
 
 import argparse
-import json
 import math
 import sys
-import time
-from pathlib import Path
 
-from kacsim import cases, plan
-from kacsim.checks import BudgetError, Problem
+from kacsim import cases, commands, plan
+from kacsim.checks import BudgetError
 
 USAGE_ERROR = 2
 JOIN = "--and"  # between the cases of one `sample` command
+# command -> (what it does, an example)
+COMMANDS = {
+    "plan": ("check a configuration and list its cases", "plan --item kac_fig3"),
+    "sample": (
+        "draw one case",
+        "sample kac --algorithm bird --n-particles 50 --time 2 --n-draws 1000000 --seed 1 "
+        "--output bird.nc",
+    ),
+    "estimate": (
+        "probe a density or a fraction by trees",
+        "estimate bkw --velocity 4 --time 1 --n-realizations 100000",
+    ),
+    "verify": ("draw cases again and compare bits", "verify --cases 10"),
+    "reduce": (
+        "make the dataset of one item from its samples",
+        "reduce kac_fig4 --settings '{...}' --output results/datasets/kac_fig4.nc",
+    ),
+    "draw": (
+        "draw the figure of one item from its dataset",
+        "draw kac_fig4 --dataset results/datasets/kac_fig4.nc --output fig4.png",
+    ),
+    "report": (
+        "write the report from datasets and figures",
+        "report --items kac_fig4 kac_fig5 --output report.html",
+    ),
+    "compile": (
+        "compile a module's kernels into the kernel cache",
+        "compile kac/bird.py --output bird.txt",
+    ),
+    "times": ("show where the time of the last run went", "times"),
+    "benchmark": ("measure the kernels, as ratios in one run", "benchmark"),
+}
+EPILOG = """examples:
+  kacsim plan                          what the full run would do
+  kacsim sample kac --help             the options of one sampler
+  kacsim verify                        compare bits with an earlier run
+The pipeline itself is run by `snakemake -c2 all`."""
 
 
 def main(argv=None):
-    """Run one command; return the exit status: 0, or 2 with one sentence on stderr."""
+    """Run one command; return the exit status: 0, or 2 with one sentence on stderr.
+
+    A comparison of `verify` that finds a difference gives 1.
+    """
     from kacsim.store import StoreError
 
-    requests = [_parser().parse_args(words) for words in _split(argv)]
+    requests = [_parser(words).parse_args(words) for words in _split(argv)]
     try:
         if len(requests) > 1:
-            _sample_all(requests)
-        else:
-            requests[0].run(requests[0])
+            return commands.run_sample_all(requests)
+        return requests[0].run(requests[0]) or 0
     except (plan.PlanError, StoreError, BudgetError) as error:
         print(error, file=sys.stderr)
         return USAGE_ERROR
-    return 0
 
 
 def _split(argv):
@@ -44,61 +79,84 @@ def _split(argv):
     return [["sample", *part] for part in parts]
 
 
-def _parser():
-    parser = argparse.ArgumentParser(prog="kacsim", description="Stages of the kacsim pipeline.")
-    commands = parser.add_subparsers(required=True, metavar="command")
-    one = commands.add_parser("plan", help="check a configuration and list its cases")
-    one.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
-    one.add_argument("--item", help="list the cases of one item only")
-    one.set_defaults(run=_plan)
-    _add_sample(commands)
-    one = commands.add_parser("reduce", help="make the dataset of one item from its samples")
-    one.add_argument("item")
-    one.add_argument("--settings", required=True, help="the item's settings, as JSON")
-    one.add_argument("--samples", default="results/samples", metavar="FOLDER")
-    one.add_argument("--output", required=True)
-    one.set_defaults(run=_reduce)
-    one = commands.add_parser("draw", help="draw the figure of one item from its dataset")
-    one.add_argument("item")
-    one.add_argument("--dataset", required=True)
-    one.add_argument("--output", required=True, nargs="+", help="files ending in png, svg, pdf")
-    one.set_defaults(run=_draw)
-    one = commands.add_parser("report", help="write the report from datasets and figures")
-    one.add_argument("--datasets", default="results/datasets", metavar="FOLDER")
-    one.add_argument("--figures", default="results/figures", metavar="FOLDER")
-    one.add_argument("--items", nargs="+", required=True)
-    one.add_argument("--output", required=True)
-    one.set_defaults(run=_report)
-    one = commands.add_parser("compile", help="compile a module's kernels into the kernel cache")
-    one.add_argument("module", choices=cases.KERNEL_MODULES)
-    one.add_argument("--output", required=True, help="file that gets the hash of the sources")
-    one.set_defaults(run=_compile)
-    one = commands.add_parser("times", help="show where the time of the last run went")
-    one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
-    one.add_argument(
-        "--since", type=_float, default=0.0, help="seconds since 1970: later jobs only"
+def _parser(words=()):
+    """Return the parser; that of the estimators, which need the compiler, only if it is called."""
+    form = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(
+        prog="kacsim",
+        description="Reproducible Monte Carlo experiments on gases.",
+        epilog=EPILOG,
+        formatter_class=form,
     )
-    one.set_defaults(run=_times)
-    one = commands.add_parser("benchmark", help="measure the kernels, as ratios in one run")
-    one.add_argument("--repeats", type=int, default=5, help="runs whose median counts")
-    one.set_defaults(run=_benchmark)
+    found = parser.add_subparsers(required=True, metavar="command")
+    parts = {}
+    for name, (text, example) in COMMANDS.items():
+        about = {"help": text, "description": f"{text[0].upper()}{text[1:]}."}
+        parts[name] = found.add_parser(
+            name, epilog=f"example:\n  kacsim {example}", formatter_class=form, **about
+        )
+        parts[name].set_defaults(run=getattr(commands, f"run_{name}"))
+    _add_configured(parts["plan"], parts["verify"])
+    _add_sample(parts["sample"])
+    if list(words[:1]) == ["estimate"]:
+        from kacsim import estimating
+
+        estimating.add_parsers(parts["estimate"])
+    _add_stages(parts["reduce"], parts["draw"], parts["report"], parts["compile"])
+    one = parts["times"]
+    one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
+    one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970: later jobs")
+    parts["benchmark"].add_argument("--repeats", type=int, default=5, help="runs; medians count")
     return parser
 
 
-def _add_sample(commands):
-    parent = commands.add_parser("sample", help="draw one case")
+def _add_configured(planning, verifying):
+    for one in (planning, verifying):
+        one.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
+        one.add_argument("--item", help="the cases of one item only")
+    planning.add_argument("--ids", action="store_true", help="print the ids of the cases alone")
+    one = verifying
+    one.add_argument("--cases", type=_integer, default=5, help="how many, at random (default 5)")
+    one.add_argument("--choice", type=_integer, default=0, help="seed of the choice (default 0)")
+    one.add_argument("--samples", default="results/samples", metavar="FOLDER")
+
+
+def _add_stages(reducing, drawing, reporting, compiling):
+    reducing.add_argument("item")
+    reducing.add_argument("--settings", required=True, help="the item's settings, as JSON")
+    reducing.add_argument("--samples", default="results/samples", metavar="FOLDER")
+    reducing.add_argument("--output", required=True)
+    drawing.add_argument("item")
+    drawing.add_argument("--dataset", required=True)
+    drawing.add_argument("--output", required=True, nargs="+", help="files ending in png, svg, pdf")
+    reporting.add_argument("--datasets", default="results/datasets", metavar="FOLDER")
+    reporting.add_argument("--figures", default="results/figures", metavar="FOLDER")
+    reporting.add_argument("--items", nargs="+", required=True)
+    reporting.add_argument("--output", required=True)
+    compiling.add_argument("module", choices=cases.KERNEL_MODULES)
+    compiling.add_argument("--output", required=True, help="file that gets the sources' hash")
+
+
+def _add_sample(parent):
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
     for sampler, names in cases.SAMPLERS.items():
-        one = samplers.add_parser(sampler)
+        text = cases.DRAWS[sampler]
+        one = samplers.add_parser(sampler, help=text, description=f"Draw {text}.")
         for name in names:
-            required = name not in cases.DEFAULTS
+            engine = name == "engine"  # of all others the case fills in the default
             many = {"nargs": "+"} if name in cases.LISTS.get(sampler, ()) else {}
-            one.add_argument(cases.flag(name), type=_value(name), required=required, **many)
+            one.add_argument(
+                cases.flag(name),
+                type=_value(name),
+                required=name not in cases.DEFAULTS and not engine,
+                default="ancestral" if engine else None,
+                help=cases.MEANINGS[name],
+                **many,
+            )
         one.add_argument("--n-draws", type=_integer, required=True, help="draws of a replicate")
-        one.add_argument("--n-replicates", type=_integer, default=1)
+        one.add_argument("--n-replicates", type=_integer, default=1, help="default 1")
         one.add_argument("--seed", type=_integer, required=True)
-        one.add_argument("--output", required=True)
-        one.set_defaults(run=_sample)
+        one.add_argument("--output", required=True, help="NetCDF file")
 
 
 def _value(name):
@@ -126,109 +184,3 @@ def _float(text):
         return float(text)
     except ValueError:
         return text
-
-
-def _plan(arguments):
-    checked = plan.Plan(plan.read_config(*arguments.config), arguments.config)
-    if arguments.item is not None and arguments.item not in checked.cases_of:
-        known = ", ".join(checked.cases_of)
-        raise plan.PlanError(f"--item = {arguments.item!r}: must be one of {known}")
-    chosen = checked.cases_of.get(arguments.item, checked.cases.values())
-    for case in chosen:
-        print(case.id)
-
-
-def _sample(arguments):
-    _sample_all([arguments])
-
-
-def _sample_all(requests):
-    """Draw cases one after the other; all are checked before the first is drawn."""
-    chosen = [_case_of(arguments) for arguments in requests]
-    from kacsim import sampling, store, times
-
-    for arguments in requests:
-        store.check_writable(arguments.output)
-    for arguments, case in zip(requests, chosen, strict=True):
-        sampling.load(case)
-        start = time.perf_counter()
-        variables = sampling.run(case)
-        print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
-        title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
-        store.write(variables, arguments.output, title=title, settings=case.settings())
-
-
-def _case_of(arguments):
-    """Return the case that the flags of `sample` describe."""
-    names = cases.SAMPLERS[arguments.sampler]
-    given = {name: getattr(arguments, name) for name in names}
-    given = {name: value for name, value in given.items() if value is not None}
-    size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}
-    case = cases.make_case(arguments.sampler, **given, **size)
-    problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
-    if problems:
-        raise plan.PlanError("\n".join(map(str, problems)))
-    return case
-
-
-def _known_item(name):
-    from kacsim import items
-
-    if name not in items.NAMES:
-        raise plan.PlanError(f"item = {name!r}: must be one of {', '.join(items.NAMES)}")
-
-
-def _reduce(arguments):
-    _known_item(arguments.item)
-    try:
-        settings = json.loads(arguments.settings)
-    except json.JSONDecodeError as error:
-        raise plan.PlanError(
-            f"--settings = {arguments.settings!r}: is not JSON: {error}"
-        ) from error
-    from kacsim import items, store
-
-    module = items.load(arguments.item)
-    wanted = module.cases(settings)
-    folder = Path(arguments.samples)
-    samples = {case.id: store.read_sample(folder / f"{case.id}.nc", case) for case in wanted}
-    dataset = items.reduced(arguments.item, samples, settings)
-    title = module.__doc__.splitlines()[0]
-    store.write(dataset, arguments.output, title=title, settings=settings)
-
-
-def _draw(arguments):
-    _known_item(arguments.item)
-    from kacsim import items, plotting, store
-
-    figure = items.load(arguments.item).draw(store.read(arguments.dataset))
-    for path in arguments.output:
-        plotting.save(figure, path)
-
-
-def _report(arguments):
-    from kacsim import report
-
-    for name in arguments.items:
-        _known_item(name)
-    report.write(arguments.items, arguments.datasets, arguments.figures, arguments.output)
-
-
-def _compile(arguments):
-    from kacsim import jit, provenance, sampling, store
-
-    sampling.compile_module(arguments.module)
-    text = provenance.source_hash(*jit.kernel_sources(arguments.module)) + "\n"
-    store.replace_file(arguments.output, lambda name: Path(name).write_text(text))
-
-
-def _times(arguments):
-    from kacsim import times
-
-    print(times.table(arguments.folder, arguments.since))
-
-
-def _benchmark(arguments):
-    from kacsim import benchmark
-
-    benchmark.run(arguments.repeats)

@@ -184,6 +184,29 @@ class Plan:
                 return file
         return self.files[0]
 
+    def table(self, chosen):
+        """Return a table of cases: the job that draws each, draws, expected seconds and items."""
+        job_of = {case.id: batch.id for batch in self.batches for case in batch.cases}
+        items_of = {}
+        for name, cases in self.cases_of.items():
+            for case in cases:
+                items_of.setdefault(case.id, []).append(name)
+        rows = [("stage", "seconds", "draws", "job", "case", "for")]
+        for case in sorted(chosen, key=lambda case: -case.seconds()):
+            amount = f"{case.n_replicates} x {case.n_draws}"
+            job, wanted = job_of[case.id], ", ".join(items_of[case.id])
+            rows.append(("sample", f"{case.seconds():.2g}", amount, job, case.id, wanted))
+        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]) - 1)]
+        lines = ["  ".join(map(str.ljust, row, (*widths, 0))) for row in rows]
+        seconds = sum(case.seconds() for case in chosen)
+        jobs = len({job_of[case.id] for case in chosen})
+        wanted = len({name for case in chosen for name in items_of[case.id]})
+        lines.append(
+            f"{len(chosen)} cases in {jobs} jobs, about {seconds:.0f} s of one core in kernels; "
+            f"then {wanted} items to reduce and draw, 2 to 3 s each"
+        )
+        return "\n".join(lines)
+
     def settings_json(self, name):
         """Return an item's settings as JSON: the argument of the later stages."""
         return json.dumps(self.settings[name], sort_keys=True)

@@ -125,7 +125,7 @@ def test_defaults_are_the_full_run():
 
 @pytest.mark.parametrize("files", [[CONFIG], [CONFIG, SMOKE]], ids=["full", "smoke"])
 def test_own_configurations_are_right(files, capsys):
-    assert cli.main(["plan", "--config", *map(str, files)]) == 0
+    assert cli.main(["plan", "--config", *map(str, files), "--ids"]) == 0
     listed = capsys.readouterr().out.split()
     assert len(set(listed)) == len(listed) > 10
 
@@ -137,7 +137,7 @@ def test_a_later_file_overrides_single_keys():
 
 
 def test_plan_of_one_item(capsys, full):
-    assert cli.main(["plan", "--config", str(CONFIG), "--item", "kac_fig9"]) == 0
+    assert cli.main(["plan", "--config", str(CONFIG), "--item", "kac_fig9", "--ids"]) == 0
     listed = capsys.readouterr().out.split()
     assert listed == [case.id for case in full.cases_of["kac_fig9"]]
 
@@ -157,7 +157,7 @@ def test_arguments_round_trip_through_the_command_line(full, monkeypatch, tmp_pa
     ]
     seen = []
     monkeypatch.setattr(sampling, "load", lambda case: None)
-    monkeypatch.setattr(sampling, "run", seen.append)
+    monkeypatch.setattr(sampling, "run", lambda case, progress: seen.append(case))
     monkeypatch.setattr(store, "write", lambda *args, settings, **_: seen.append(settings))
     for case in [*full.cases.values(), *awkward]:
         seen.clear()

@@ -1,0 +1,159 @@
+"""What each command does: check, call, write. No science here."""
+
+import json
+import time
+from pathlib import Path
+
+from kacsim import cases, plan
+from kacsim.checks import Problem
+
+DIFFERENCE = 1  # exit status of `verify` where bits differ
+
+
+def _planned(arguments):
+    """Return (plan, cases of the wanted item or of all items)."""
+    checked = plan.Plan(plan.read_config(*arguments.config), arguments.config)
+    if arguments.item is None:
+        return checked, list(checked.cases.values())
+    if arguments.item not in checked.cases_of:
+        known = ", ".join(checked.cases_of)
+        raise plan.PlanError(f"--item = {arguments.item!r}: must be one of {known}")
+    return checked, checked.cases_of[arguments.item]
+
+
+def run_plan(arguments):
+    """Print the cases of a configuration, as a table or their ids."""
+    checked, chosen = _planned(arguments)
+    if arguments.ids:
+        print("\n".join(case.id for case in chosen))
+    else:
+        print(checked.table(chosen))
+
+
+def run_verify(arguments):
+    """Draw cases again; return 1 if bits differ from those kept, else 0."""
+    from kacsim import progress, verify
+
+    if not (isinstance(arguments.cases, int) and arguments.cases >= 1):
+        raise plan.PlanError(f"--cases = {arguments.cases!r}: must be an integer, at least 1")
+    wrong = 0
+    for case in verify.choose(_planned(arguments)[1], arguments.cases, arguments.choice):
+        line = progress.Progress(case.n_draws * case.n_replicates, case.id)
+        state, sentence = verify.verify(case, arguments.samples, line)
+        line.end()
+        print(sentence)
+        wrong += state != verify.EQUAL
+    return DIFFERENCE if wrong else 0
+
+
+def run_estimate(arguments):
+    """Print the estimate of one probe."""
+    from kacsim import estimating
+
+    estimating.run(arguments)
+
+
+def run_sample(arguments):
+    """Draw one case."""
+    return run_sample_all([arguments])
+
+
+def run_sample_all(requests):
+    """Draw cases one after the other; all are checked before the first is drawn."""
+    chosen = [_case_of(arguments) for arguments in requests]
+    from kacsim import progress, sampling, store, times
+
+    for arguments in requests:
+        store.check_writable(arguments.output)
+    for arguments, case in zip(requests, chosen, strict=True):
+        sampling.load(case)
+        line = progress.Progress(case.n_draws * case.n_replicates, case.id)
+        start = time.perf_counter()
+        variables = sampling.run(case, line)
+        line.end()
+        print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
+        title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
+        store.write(variables, arguments.output, title=title, settings=case.settings())
+    return 0
+
+
+def _case_of(arguments):
+    """Return the case that the flags of `sample` describe."""
+    names = cases.SAMPLERS[arguments.sampler]
+    given = {name: getattr(arguments, name) for name in names}
+    given = {name: value for name, value in given.items() if value is not None}
+    size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}
+    case = cases.make_case(arguments.sampler, **given, **size)
+    problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
+    if problems:
+        raise plan.PlanError("\n".join(map(str, problems)))
+    return case
+
+
+def _known_item(name):
+    from kacsim import items
+
+    if name not in items.NAMES:
+        raise plan.PlanError(f"item = {name!r}: must be one of {', '.join(items.NAMES)}")
+
+
+def run_reduce(arguments):
+    """Make the dataset of an item."""
+    _known_item(arguments.item)
+    try:
+        settings = json.loads(arguments.settings)
+    except json.JSONDecodeError as error:
+        raise plan.PlanError(
+            f"--settings = {arguments.settings!r}: is not JSON: {error}"
+        ) from error
+    from kacsim import items, store
+
+    module = items.load(arguments.item)
+    wanted = module.cases(settings)
+    folder = Path(arguments.samples)
+    samples = {case.id: store.read_sample(folder / f"{case.id}.nc", case) for case in wanted}
+    dataset = items.reduced(arguments.item, samples, settings)
+    title = module.__doc__.splitlines()[0]
+    store.write(dataset, arguments.output, title=title, settings=settings)
+
+
+def run_draw(arguments):
+    """Draw the figure of an item."""
+    _known_item(arguments.item)
+    from kacsim import items, plotting, store
+
+    figure = items.load(arguments.item).draw(store.read(arguments.dataset))
+    for path in arguments.output:
+        plotting.save(figure, path)
+
+
+def run_report(arguments):
+    """Write the report."""
+    from kacsim import report
+
+    for name in arguments.items:
+        _known_item(name)
+    report.write(arguments.items, arguments.datasets, arguments.figures, arguments.output)
+
+
+def run_compile(arguments):
+    """Compile a module, and leave a file that says so."""
+    from kacsim import jit, provenance, sampling, store
+
+    sampling.compile_module(arguments.module)
+    text = provenance.source_hash(*jit.kernel_sources(arguments.module)) + "\n"
+    store.replace_file(arguments.output, lambda name: Path(name).write_text(text))
+
+
+def run_times(arguments):
+    """Print where the time of a run went."""
+    from kacsim import times
+
+    print(times.table(arguments.folder, arguments.since))
+
+
+def run_benchmark(arguments):
+    """Print the measurements of the kernels."""
+    from kacsim import benchmark
+
+    benchmark.run(arguments.repeats)

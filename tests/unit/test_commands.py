@@ -1,0 +1,156 @@
+"""Commands that a user calls by hand: plan, estimate, verify, and the line of progress."""
+
+import io
+import json
+import shutil
+
+import netCDF4
+import pytest
+
+from kacsim import boltzmann, cli, estimating, kac, verify
+from kacsim.cases import DRAWS, MEANINGS, SAMPLERS, make_case
+from kacsim.progress import Progress
+from kacsim.provenance import ROOT
+
+CONFIG = ROOT / "config" / "config.yaml"
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_every_parameter_has_a_meaning():
+    names = {name for parameters in SAMPLERS.values() for name in parameters}
+    assert names == set(MEANINGS)
+    assert set(SAMPLERS) == set(DRAWS)
+
+
+@pytest.mark.parametrize("command", cli.COMMANDS)
+def test_help_shows_an_example(command, capsys):
+    with pytest.raises(SystemExit) as end:
+        cli.main([command, "--help"])
+    assert end.value.code == 0
+    shown = capsys.readouterr().out
+    assert f"kacsim {command}" in shown.split("example:")[1]
+
+
+def test_plan_is_a_table_with_costs(capsys):
+    assert cli.main(["plan", "--config", str(CONFIG), "--item", "kac_fig9"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["stage", "seconds", "draws", "job", "case", "for"]
+    assert len(lines) == 1 + 2 + 1
+    assert all("kac_fig9, kac_numbers" in line for line in lines[1:3])
+    assert lines[-1].startswith("2 cases in ")
+
+
+ESTIMATES = [
+    ("kac --v 2.5 --time 0.7", kac.estimate_density, {"v": 2.5, "time": 0.7}),
+    (
+        "bkw --velocity 1 0.5 -2 --time 0.7 --rms-velocity 1.7",
+        boltzmann.estimate_bkw,
+        {"velocity": [1.0, 0.5, -2.0], "time": 0.7, "rms_velocity": 1.7},
+    ),
+    (
+        "trap --position 2 --velocity 0.3 --time 1 --initial breathing",
+        boltzmann.estimate_trap,
+        {"position": 2.0, "velocity": 0.3, "time": 1.0, "initial": "breathing"},
+    ),
+    (
+        "extinction --time 1 --rate 2 --initial 0.7 --majorant 2.5",
+        boltzmann.estimate_extinction,
+        {"time": 1.0, "rate": 2.0, "initial": 0.7, "majorant": 2.5},
+    ),
+]
+
+
+@pytest.mark.parametrize(("words", "function", "given"), ESTIMATES)
+def test_estimate_is_the_function(words, function, given, capsys):
+    size = ["--n-realizations", "500", "--seed", "3"]
+    assert cli.main(["estimate", *words.split(), *size, "--json"]) == 0
+    expected = function(**given, n_realizations=500, seed=3)
+    assert json.loads(capsys.readouterr().out) == vars(expected)
+    assert cli.main(["estimate", *words.split(), *size]) == 0
+    shown = capsys.readouterr().out
+    assert f"{expected.mean:.6g} ± {expected.standard_error:.2g}" in shown
+
+
+def test_all_estimators_are_commands():
+    public = {name for module in (kac, boltzmann) for name in module.__all__}
+    functions = {function.__name__ for function, _ in estimating.ESTIMATORS.values()}
+    assert functions == {name for name in public if name.startswith("estimate_")}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("bkw --velocity 1 --time -1", "--time = -1.0: must"),
+        ("bkw --velocity nan --time 1", "--velocity = nan: must"),
+        ("bkw --velocity 1 --time 1 --n-realizations 1", "--n-realizations = 1: must"),
+        ("bkw --velocity 1 --time 1 --n-realizations many", "--n-realizations = 'many': must"),
+        ("trap --position 1 --velocity 0 --time 1 --initial warm", "--initial = 'warm': must"),
+        ("extinction --time 1 --rate 1 --initial 1 --majorant 0", "--majorant = 0.0: must"),
+        ("bkw --velocity 1 --time 9 --max-nodes 10", "max_nodes: a tree has grown"),
+    ],
+)
+def test_wrong_estimate(words, message, capsys):
+    assert cli.main(["estimate", *words.split()]) == 2
+    assert capsys.readouterr().err.startswith(message)
+
+
+@pytest.fixture
+def drawn(tmp_path, monkeypatch):
+    """Return a case whose samples lie where the workflow keeps them."""
+    monkeypatch.chdir(tmp_path)
+    given = {"algorithm": "bird", "engine": "ancestral", "n_particles": 7, "time": 1.7}
+    case = make_case("kac", **given, n_draws=500, n_replicates=2, seed=9)
+    words = [*case.arguments().split(), "--output", case.output()]
+    assert cli.main(["sample", *words]) == 0
+    return case
+
+
+def test_verify_finds_the_same_bits(drawn):
+    assert verify.verify(drawn, "results/samples")[0] == verify.EQUAL
+
+
+def test_verify_finds_one_wrong_count(drawn):
+    with netCDF4.Dataset(drawn.output(), "a") as file:
+        file["counts"][1, 40] += 1
+    state, sentence = verify.verify(drawn, "results/samples")
+    assert state == verify.DIFFERENT
+    assert "differs in counts" in sentence
+    assert drawn.output() in sentence
+
+
+def test_verify_of_a_missing_file(drawn):
+    shutil.rmtree("results")
+    assert verify.verify(drawn, "results/samples")[0] == verify.MISSING
+    assert cli.main(["verify", "--config", str(CONFIG), "--cases", "1"]) == 1
+
+
+@pytest.mark.parametrize("number", ["0", "-1", "many"])
+def test_verify_wants_cases(number, capsys):
+    assert cli.main(["verify", "--config", str(CONFIG), "--cases", number]) == 2
+    assert "--cases = " in capsys.readouterr().err
+
+
+def test_progress_on_a_terminal_shows_share_throughput_and_time_left():
+    ticks = iter([0.0, 0.1, 2.0, 2.1])
+    stream = Terminal()
+    line = Progress(4000, "kac-bird", stream, lambda: next(ticks))
+    line(100)
+    assert stream.getvalue() == ""
+    line(1000)
+    line(1100)
+    assert stream.getvalue().endswith("kac-bird:  25 %  500 draws/s  6 s left")
+    line.end()
+    assert stream.getvalue().endswith("\r\033[K")
+
+
+def test_progress_is_silent_in_a_log():
+    stream = io.StringIO()
+    ticks = iter(range(100))
+    line = Progress(10, "a", stream, lambda: next(ticks))
+    line(5)
+    line.end()
+    assert stream.getvalue() == ""

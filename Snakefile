@@ -12,7 +12,7 @@ import time
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import cases, items, plan
+from kacsim import cases, console, items, plan
 from kacsim.provenance import ROOT, source_hash
 
 
@@ -32,6 +32,11 @@ FORMATS = ("png", "svg", "pdf")
 CONFIG_FILES = sorted(
     workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml"
 )
+
+if workflow.is_main_process and not workflow.dryrun:
+    console.quieten(
+        logger, [str(file) for file in CONFIG_FILES[1:]], ("all", *items.NAMES)
+    )
 
 try:
     the_plan = plan.Plan(config, CONFIG_FILES)
@@ -59,3 +64,4 @@ include: "workflow/rules/report.smk"
 
 onsuccess:
     shell(f"kacsim times --since {START}")
+    shell(f"kacsim summary --since {START}")

@@ -39,6 +39,7 @@ COMMANDS = {
         "compile kac/bird.py --output bird.txt",
     ),
     "times": ("show where the time of the last run went", "times"),
+    "summary": ("show where the report is and how many verdicts stand", "summary"),
     "benchmark": ("measure the kernels, as ratios in one run", "benchmark"),
 }
 EPILOG = """examples:
@@ -103,9 +104,11 @@ def _parser(words=()):
 
         estimating.add_parsers(parts["estimate"])
     _add_stages(parts["reduce"], parts["draw"], parts["report"], parts["compile"])
-    one = parts["times"]
-    one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
-    one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970: later jobs")
+    parts["times"].add_argument("--folder", default=".", help="where benchmarks and logs lie")
+    parts["summary"].add_argument("--report", default="results/report/report.html", metavar="FILE")
+    parts["summary"].add_argument("--datasets", default="results/datasets", metavar="FOLDER")
+    for one in (parts["times"], parts["summary"]):
+        one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970")
     parts["benchmark"].add_argument("--repeats", type=int, default=5, help="runs; medians count")
     return parser
 

@@ -152,6 +152,21 @@ def run_times(arguments):
     print(times.table(arguments.folder, arguments.since))
 
 
+def run_summary(arguments):
+    """Print where the report is and how many verdicts stand, if it is newer than a time."""
+    report = Path(arguments.report)
+    if not report.exists() or report.stat().st_mtime < arguments.since:
+        return
+    from kacsim import store
+
+    words = []
+    for path in sorted(Path(arguments.datasets).glob("*_numbers.nc")):
+        words += list(store.read(path)["verdict"].values)
+    counts = {word: words.count(word) for word in dict.fromkeys(words)}
+    shown = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
+    print(f"{report}: of {len(words)} published results {shown}")
+
+
 def run_benchmark(arguments):
     """Print the measurements of the kernels."""
     from kacsim import benchmark

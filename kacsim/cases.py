@@ -5,10 +5,17 @@ import math
 import shlex
 from dataclasses import dataclass
 
-from kacsim import checks
+from kacsim import checks, checks_techniques
 from kacsim.checks import BREATHING, MAX_NODES, RATE
 
 _TREE = {"oversampling": "m", "onset": "from", "max_nodes": "budget"}
+_GAS = {
+    "density": "n",
+    "temperature": "temp",
+    "drift": "drift",
+    "half_width": "box",
+    "step": "dt",
+}
 _TRAP = {
     "initial": "",
     "breathing": "eps",
@@ -49,6 +56,16 @@ SAMPLERS = {
         "coupling": "coupling",
     },
     "bkw_moment": {"time": "t", **_TREE},
+    "inverse_transform": {"law": "", "n_table": "table"},
+    "inversion": {"law": "", "rate": "rate"},
+    "rejection": {"law": "", "envelope": ""},
+    "identity": {},
+    "injection": _GAS,
+    "outer_gas": _GAS,
+    "weighted_particles": {"n_representatives": "n", "temperature": "temp", "drift": "drift"},
+    "sphere_lattice": {"dimension": "d", "edge": "m"},
+    "sphere_points": {"generator": "", "dimension": "d", "n_points": "n"},
+    "area": {"exponent": "power", "n_points": "n"},
 }
 # Parameters that are lists: a case of the Boltzmann paper holds a grid of probes.
 LISTS = {
@@ -65,6 +82,19 @@ LISTS = {
         "trap_energy",
         "trap_literal",
         "bkw_moment",
+    )
+}
+PROBES = tuple(LISTS)  # samplers at grids of probes
+LISTS |= {
+    name: {"n_table", "drift", "half_width", "dimension", "edge", "n_points"} & set(SAMPLERS[name])
+    for name in (
+        "inverse_transform",
+        "injection",
+        "outer_gas",
+        "weighted_particles",
+        "sphere_lattice",
+        "sphere_points",
+        "area",
     )
 }
 DEFAULTS = {
@@ -95,6 +125,13 @@ FAMILY_SOURCES = {
         "boltzmann/trap.py",
         "boltzmann/literal.py",
     ),
+    "techniques": (
+        "techniques/sampling.py",
+        "techniques/model.py",
+        "techniques/flux.py",
+        "checks_techniques.py",
+        "kac/model.py",
+    ),
 }
 ALGORITHM_FILES = {
     "nanbu_sequential": "kac/nanbu.py",
@@ -118,6 +155,16 @@ SAMPLER_FILES = {
     "trap_energy": "boltzmann/trap_tree.py",
     "trap_literal": "boltzmann/literal_trap.py",
     "bkw_moment": "boltzmann/bkw_tree.py",
+    "inverse_transform": "techniques/inverse_transform.py",
+    "inversion": "techniques/inverse_transform.py",
+    "rejection": "techniques/rejection.py",
+    "identity": "techniques/identity.py",
+    "injection": "techniques/injection.py",
+    "outer_gas": "techniques/injection.py",
+    "weighted_particles": "techniques/particles.py",
+    "sphere_lattice": "techniques/integration.py",
+    "sphere_points": "techniques/integration.py",
+    "area": "techniques/integration.py",
 }
 KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
 
@@ -167,7 +214,9 @@ class Case:
         work = float(self.n_draws * self.n_replicates)
         if self.sampler == "kac_equilibrium":
             work *= 20.0 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
-        elif self.sampler in LISTS:
+        elif self.family == "techniques":
+            work *= max(p.get("n_points", [1])) * sum(p.get("dimension", [6]))
+        elif self.sampler in PROBES:
             many = p.get("oversampling", 1.0)
             growth = 2.0 * (max(many) if isinstance(many, (list, tuple)) else many) - 1.0
             probes = math.prod(len(p[name]) for name in LISTS[self.sampler]) / len(p["time"])
@@ -179,7 +228,8 @@ class Case:
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
-        check = getattr(checks, self.sampler)
+        home = checks_techniques if self.family == "techniques" else checks
+        check = getattr(home, self.sampler)
         return [*check(**self.parameters), *checks.amount(**size)]
 
     @property

@@ -81,9 +81,9 @@ def _add_sample(commands):
 
 
 def _value(name):
-    if name in ("algorithm", "engine", "initial"):
+    if name in ("algorithm", "engine", "initial", "law", "envelope", "generator"):
         return str
-    if name == "max_nodes":
+    if name in ("max_nodes", "n_table", "dimension", "edge", "n_points", "n_representatives"):
         return _integer
     return _count if name == "n_particles" else _float
 

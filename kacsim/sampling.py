@@ -22,6 +22,31 @@ def run(case, progress=None):
     return home.SAMPLERS[case.sampler](case, progress or (lambda done: None))
 
 
+GAS = {"density": 1.0, "temperature": 1.0, "drift": [0.1, 0.0, 0.0], "half_width": [1.0] * 3}
+# Samplers of the chapter -> the smallest parameters of each, several where kernels differ.
+TINY = {
+    "inverse_transform": [{"law": "ramp", "n_table": [2]}],
+    "inversion": [{"law": "ramp", "rate": 1.0}],
+    "rejection": [{"law": "ramp", "envelope": "constant"}],
+    "identity": [{}],
+    "injection": [GAS | {"step": 0.1}],
+    "outer_gas": [GAS | {"step": 0.1}],
+    "weighted_particles": [{"n_representatives": 50, "temperature": 1.0, "drift": [0.0] * 3}],
+    "sphere_lattice": [{"dimension": [2], "edge": [2]}],
+    "sphere_points": [
+        {"generator": name, "dimension": [2], "n_points": [2]} for name in ("good", "exhausted")
+    ],
+    "area": [{"exponent": 0.3, "n_points": [2]}],
+}
+
+
+def _tiny_techniques(size):
+    """Yield the smallest cases of the chapter's samplers."""
+    for sampler, choices in TINY.items():
+        for parameters in choices:
+            yield make_case(sampler, **parameters, **size)
+
+
 def _tiny_cases():
     """Yield a case of every sampler, algorithm and engine, as small as can be."""
     size = {"n_draws": 2, "n_replicates": 1, "seed": 0}
@@ -30,8 +55,9 @@ def _tiny_cases():
         for engine in ENGINES:
             common = {"n_particles": 4, "time": 1.0, "time_step": step, "engine": engine}
             yield make_case("kac", algorithm=algorithm, **common, **size)
+    yield from _tiny_techniques(size)
     for sampler in SAMPLERS:
-        if sampler != "kac":
+        if sampler != "kac" and sampler not in TINY:
             probes = {"n_particles": 3, "tolerance": 0.1, "initial": "bkw"}
             lists = LISTS.get(sampler, ())
             for name in ("speed", "time", "threshold", "majorant", "radius", "oversampling"):

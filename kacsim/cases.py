@@ -128,6 +128,7 @@ FAMILY_SOURCES = {
     "techniques": (
         "techniques/sampling.py",
         "techniques/model.py",
+        "techniques/exact.py",
         "techniques/flux.py",
         "checks_techniques.py",
         "kac/model.py",

@@ -1,5 +1,7 @@
 """What the samplers of the chapter accept: light, like `kacsim.checks`."""
 
+import itertools
+
 from kacsim.checks import (
     Problem,
     _is_integer,
@@ -20,7 +22,7 @@ SUPPORT = {
 LAWS = tuple(SUPPORT)
 CLOSED = ("exponential", "ramp", "triangle")  # cumulative functions with an inverse in closed form
 ENVELOPES = ("constant", "closer")
-GENERATORS = ("good", "exhausted", "sobol")
+GENERATORS = ("good", "exhausted", "congruential", "sobol")
 AXES = ("x", "y", "z")
 FACES = ("-x", "+x", "-y", "+y", "-z", "+z")  # the normal that points inward is the opposite one
 LARGEST_EDGE = 400  # cells along an edge: the counting table has 4 edge**2 places
@@ -55,7 +57,7 @@ def rising(name, values):
     """Yield a problem unless the values are integers that grow."""
     wrong = list(listed(name, values, count))
     yield from wrong
-    if not wrong and any(b <= a for a, b in zip(values[:-1], values[1:], strict=True)):
+    if not wrong and any(b <= a for a, b in itertools.pairwise(values)):
         yield Problem(name, values, "must grow from each value to the next")
 
 

@@ -36,13 +36,15 @@ def reduce_sources(name):
     used = (name, *getattr(items.load(name), "USES", ()))
     exact = ("kac/exact.py", "kac/moments.py", "kac/ancestors.py")
     exact += ("boltzmann/bkw.py", "boltzmann/extinction.py", "boltzmann/trap.py")
+    exact += ("techniques/exact.py", "techniques/flux.py", "techniques/inverse_transform.py")
     own = tuple(f"items/{one}.py" for one in used)
     return (*own, *_shared_items(), *exact, "statistics", "store.py")
 
 
 def draw_sources(name):
     """Return the package's files that an item's figure depends on."""
-    return f"items/{name}.py", *_shared_items(), "plotting.py", "kac/exact.py", "boltzmann/bkw.py"
+    exact = "kac/exact.py", "boltzmann/bkw.py", "techniques/exact.py", "techniques/flux.py"
+    return f"items/{name}.py", *_shared_items(), "plotting.py", *exact
 
 
 def read_config(*paths):

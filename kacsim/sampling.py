@@ -34,7 +34,8 @@ TINY = {
     "weighted_particles": [{"n_representatives": 50, "temperature": 1.0, "drift": [0.0] * 3}],
     "sphere_lattice": [{"dimension": [2], "edge": [2]}],
     "sphere_points": [
-        {"generator": name, "dimension": [2], "n_points": [2]} for name in ("good", "exhausted")
+        {"generator": name, "dimension": [2], "n_points": [2]}
+        for name in ("good", "exhausted", "congruential")
     ],
     "area": [{"exponent": 0.3, "n_points": [2]}],
 }

@@ -30,7 +30,7 @@ def flux_density(density, drift, temperature):
 
 
 def face_rates(density, temperature, drift, half_width):
-    """Return float64[6], particles per time through each face, eq. (11.14) with its limits right."""
+    """Return float64[6], particles per time and face, eq. (11.14) with its limits right."""
     rates = np.empty(6)
     for face in range(6):
         axis, inward = face // 2, 1.0 - 2.0 * (face % 2)

@@ -36,8 +36,8 @@ def poisson_number(mean, stream):
 def inward_speed(s, stream):
     """Return x > 0 of density proportional to x exp(-(x - s)**2 / 2): v f(v), in thermal units.
 
-    Exact, by rejection: under a Gamma(2) law for s <= 0, under a normal and a two-sided Rayleigh law
-    about s, weighted s sqrt(2 pi) to 2, for s > 0.
+    Exact, by rejection: under a Gamma(2) law for s <= 0, under a normal and a two-sided Rayleigh
+    law about s, weighted s sqrt(2 pi) to 2, for s > 0.
     """
     if s <= 0.0:
         rate = 0.5 * (math.sqrt(s * s + 8.0) - s)
@@ -58,22 +58,25 @@ def inward_speed(s, stream):
 
 
 @inlined
-def add_particle(face, position, velocity, half_width, numbers, sums, kept, n_kept):
-    """Add one entering particle to the sums; return the new number of kept ones.
+def add_particle(face, position, velocity, half_width, numbers, tallies, n_kept):
+    """Add one entering particle to the tallies; return the new number of kept ones.
 
     Parameters
     ----------
     position, velocity : float64[3]
     numbers : int64[6], particles of this step
-    sums : float64[6, 8]: number, v_n, v_n**2, v_n**4, both tangential v, product of the positions,
-        sum of their squares, both in units of the half widths
-    kept : float64[m, 7], face, position, velocity
+    tallies : of (sums, speeds, width, kept), all but the width modified in place:
+        float64[6, 8], sums of 1, v_n, v_n**2, v_n**4, both tangential v, the product of the
+        positions and their squares, these in half widths; int64[6, bins], particles by v_n / width;
+        float64[m, 7], face, position and velocity of the first particles
     """
+    sums, speeds, width, kept = tallies
     axis = face // 2
     one, two = (axis + 1) % 3, (axis + 2) % 3
     speed = abs(velocity[axis])
     a, b = position[one] / half_width[one], position[two] / half_width[two]
     numbers[face] += 1
+    speeds[face, min(int(speed / width), speeds.shape[1] - 1)] += 1
     sums[face, 0] += 1.0
     sums[face, 1] += speed
     sums[face, 2] += speed**2
@@ -92,7 +95,7 @@ def add_particle(face, position, velocity, half_width, numbers, sums, kept, n_ke
 
 
 @kernel
-def inject_steps(n_steps, means, drift, thermal, half_width, counts, sums, kept, stream):
+def inject_steps(n_steps, means, drift, thermal, half_width, counts, tallies, stream):
     """Inject through all faces, step by step (chapter, section 11.3).
 
     Parameters
@@ -100,7 +103,7 @@ def inject_steps(n_steps, means, drift, thermal, half_width, counts, sums, kept,
     means : float64[6], F_j dt, mean number per face and step
     drift, half_width : float64[3]; thermal : float, root of the temperature
     counts : int64[6, most + 1], steps by number of particles, the last for all larger, added to
-    sums, kept : as `add_particle`
+    tallies : as `add_particle`
 
     Returns
     -------
@@ -121,7 +124,7 @@ def inject_steps(n_steps, means, drift, thermal, half_width, counts, sums, kept,
                 s = inward * drift[axis] / thermal
                 velocity[axis] = inward * thermal * inward_speed(s, stream)
                 n_kept = add_particle(
-                    face, position, velocity, half_width, numbers, sums, kept, n_kept
+                    face, position, velocity, half_width, numbers, tallies, n_kept
                 )
         for face in range(6):
             counts[face, min(numbers[face], counts.shape[1] - 1)] += 1
@@ -150,7 +153,7 @@ def entry(position, velocity, half_width, step):
 
 
 @kernel
-def move_gas(n_steps, mean, reach, drift, thermal, half_width, step, counts, sums, kept, stream):
+def move_gas(n_steps, mean, reach, drift, thermal, half_width, step, counts, tallies, stream):
     """Move a piece of the outer gas for one step, over and over, and look at what enters.
 
     The reference of `inject_steps`: it knows nothing of fluxes. Particles are uniform in a larger
@@ -173,7 +176,7 @@ def move_gas(n_steps, mean, reach, drift, thermal, half_width, step, counts, sum
             face = entry(position, velocity, half_width, step)
             if face >= 0:
                 n_kept = add_particle(
-                    face, position, velocity, half_width, numbers, sums, kept, n_kept
+                    face, position, velocity, half_width, numbers, tallies, n_kept
                 )
         for face in range(6):
             counts[face, min(numbers[face], counts.shape[1] - 1)] += 1
@@ -218,8 +221,9 @@ def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
     for k in range(n_steps):
         before = stream.copy()
         while True:
-            counts, sums, kept = np.zeros((6, 2), np.int64), np.zeros((6, 8)), np.empty((room, 7))
-            n = inject_steps(1, means, *vectors, counts, sums, kept, stream)
+            counts, kept = np.zeros((6, 2), np.int64), np.empty((room, 7))
+            tallies = np.zeros((6, 8)), np.zeros((6, 1), np.int64), 1.0, kept
+            n = inject_steps(1, means, *vectors, counts, tallies, stream)
             if n < room:
                 break
             room, stream = 2 * room, before.copy()

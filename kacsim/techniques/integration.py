@@ -3,14 +3,16 @@
 import math
 
 import numpy as np
-from numba import int64
+from numba import int64, uint64
 
 from kacsim import checks, checks_techniques
-from kacsim.jit import kernel
-from kacsim.streams import new_stream
+from kacsim.jit import inlined, kernel
+from kacsim.streams import new_stream, next_bits
 from kacsim.variates import uniform
 
-# A linear congruential generator of the old textbooks: all residues of 714025, then the same again.
+# A bad generator: independent numbers, but a counter of 20 bits, so that they run out.
+EXHAUSTED = 1 << 20
+# Another one: a linear congruential generator of the old textbooks, all residues of 714025.
 PERIOD, FACTOR, SHIFT = 714025, 1366, 150889
 BLOCK = 65536
 
@@ -64,9 +66,35 @@ def count_random(inside, n_points, dimension, stream):
         inside[place] = hits
 
 
+@inlined
+def mixed(word):
+    """Return 64 bits from a counter times an odd constant (SplitMix64, Steele et al., 2014)."""
+    word = (word ^ (word >> uint64(30))) * uint64(0xBF58476D1CE4E5B9)
+    word = (word ^ (word >> uint64(27))) * uint64(0x94D049BB133111EB)
+    return word ^ (word >> uint64(31))
+
+
 @kernel
 def count_exhausted(inside, n_points, dimension, stream):
-    """Do as `count_random` with a generator that runs out after `PERIOD` numbers."""
+    """Do as `count_random` with a generator whose `EXHAUSTED` numbers come again and again."""
+    done, hits, counter = 0, 0, 0
+    key = next_bits(stream)
+    for place in range(n_points.size):
+        for _ in range(n_points[place] - done):
+            square = 0.0
+            for _ in range(dimension):
+                word = mixed(key + uint64(counter) * uint64(0x9E3779B97F4A7C15))
+                x = int64(word >> uint64(11)) * 2.0**-53
+                counter = (counter + 1) & (EXHAUSTED - 1)
+                square += x * x
+            hits += int64(square <= 1.0)
+        done = n_points[place]
+        inside[place] = hits
+
+
+@kernel
+def count_congruential(inside, n_points, dimension, stream):
+    """Do as `count_random` with a generator that takes each of `PERIOD` values once."""
     done, hits = 0, 0
     state = int64(uniform(stream) * PERIOD)
     for place in range(n_points.size):
@@ -104,43 +132,23 @@ def sum_area(sums, n_points, exponent, stream):
         sums[1, place] = heights
 
 
-def ball_volume(dimension):
-    """Return the volume of the unit sphere's part in the unit cube, 2**-d of the whole."""
-    return math.pi ** (dimension / 2.0) / math.gamma(dimension / 2.0 + 1.0) / 2.0**dimension
-
-
-def area(exponent):
-    """Return the exact integral of (1 - x**2)**exponent over [-1, 1]."""
-    return math.sqrt(math.pi) * math.gamma(exponent + 1.0) / math.gamma(exponent + 1.5)
-
-
-def area_variance(exponent, method):
-    """Return the variance of one point, relative to the squared area, "hits" or "heights"."""
-    share = area(exponent) / 2.0
-    square = share if method == "hits" else area(2.0 * exponent) / 2.0
-    return square / share**2 - 1.0
-
-
-def count_sobol(n_points, dimension, state):
-    """Return int64[n], points of a scrambled Sobol sequence inside the sphere.
+def count_sobol(inside, n_points, dimension, state):
+    """Do as `count_random` with a scrambled Sobol sequence.
 
     Parameters
     ----------
-    n_points : int64[n], growing
-    dimension : int
     state : uint64[4] of `new_stream`, the seed of the scrambling
     """
     from scipy.stats import qmc  # a second to import, which the other generators should not pay
 
     engine = qmc.Sobol(dimension, scramble=True, rng=np.random.default_rng(state))
-    inside, done, hits = np.empty(len(n_points), np.int64), 0, 0
+    done, hits = 0, 0
     for place, n in enumerate(n_points):
         while done < n:
-            points = engine.random(min(BLOCK, n - done))
+            points = engine.random(int(min(BLOCK, n - done)))
             hits += int(((points * points).sum(axis=1) <= 1.0).sum())
             done += points.shape[0]
         inside[place] = hits
-    return inside
 
 
 def lattice_count(dimension, edge):

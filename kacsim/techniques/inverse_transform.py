@@ -1,26 +1,17 @@
 """The inverse transform: u = P(v), by a table equally spaced in u, or in closed form (11.2)."""
 
-import math
-
 import numpy as np
-from scipy import special
 
 from kacsim import checks
 from kacsim.checks_techniques import CLOSED, LAWS, SUPPORT
 from kacsim.jit import kernel
 from kacsim.streams import new_stream
 from kacsim.techniques import model
+from kacsim.techniques.exact import CUMULATIVES
 from kacsim.variates import uniform
 
 BISECTIONS = 64
 CHECKED = 4096  # places where a cumulative function is checked to rise, beside the table's own
-
-CUMULATIVES = {
-    "kac_initial": lambda v: 0.5 * special.erfc(-v) - v * np.exp(-v * v) / math.sqrt(math.pi),
-    "exponential": lambda v: -np.expm1(-v),
-    "ramp": lambda v: (2.0 + v) * v / 3.0,
-    "triangle": lambda v: v * v,
-}
 
 
 @kernel

@@ -9,18 +9,9 @@ from kacsim.checks_techniques import LAWS, SUPPORT
 from kacsim.jit import inlined, kernel
 from kacsim.streams import new_stream
 from kacsim.techniques import model
+from kacsim.techniques.exact import CLOSER_TOP, NARROW, TOPS
 from kacsim.variates import uniform
 
-# Largest value of each law's density on its support.
-TOPS = {
-    "kac_initial": 2.0 / math.sqrt(math.pi) / math.e,
-    "exponential": 1.0,
-    "ramp": 4.0 / 3.0,
-    "triangle": 2.0,
-}
-# |v| exp(-2 v**2 / 3) is the nearest of the |v| exp(-b v**2) above f0: least area at b = 2/3.
-NARROW = 2.0 / 3.0
-CLOSER_TOP = 2.0 / math.sqrt(math.pi) * math.exp(-0.5) / math.sqrt(2.0 * (1.0 - NARROW))
 BLOCK = 65536
 
 
@@ -77,14 +68,6 @@ def arguments(law, envelope):
     return LAWS.index(law), envelope == "closer", low, high - low, TOPS[law]
 
 
-def envelope_area(law, envelope):
-    """Return the area under the envelope: trials per accepted value (chapter, Fig. 11.2)."""
-    if envelope == "closer":
-        return CLOSER_TOP / NARROW
-    low, high = SUPPORT[law]
-    return TOPS[law] * (high - low)
-
-
 def draw_by_rejection(density, envelope, propose, *, n_draws, seed):
     """Draw values with a density known up to a factor, by rejection under any envelope.
 
@@ -120,7 +103,9 @@ def draw_by_rejection(density, envelope, propose, *, n_draws, seed):
         low = wanted > height * (1.0 + 1e-12)
         if low.any():
             place = tried[low][0]
-            raise ValueError(f"envelope = {envelope!r}: must not be below the density, as at {place}")
+            raise ValueError(
+                f"envelope = {envelope!r}: must not be below the density, as at {place}"
+            )
         if not (wanted > 0.0).any():
             raise ValueError(f"density = {density!r}: must be positive where values are proposed")
         found = np.flatnonzero(u[1] * height < wanted)[: n_draws - filled]

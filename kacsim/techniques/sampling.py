@@ -22,6 +22,7 @@ CHUNK = 8192
 CELLS = 10007  # of equal probability; a prime, so that few edges are nodes of a table
 POWERS = (1, 2, 3, 4)
 RECORDED = 600  # trials or particles shown in a figure
+SPEED_BINS, SPEED_WIDTH = 80, 0.1  # of the normal velocity, in units of the thermal one
 MOST = 40  # particles of a face in one step that have a count of their own
 SUMS = ("number", "speed", "speed_2", "speed_4", "tangent_1", "tangent_2", "product", "squares")
 
@@ -120,19 +121,23 @@ def sample_identity(case, progress):
 
 
 def _entering(case, progress, run):
-    """Stream steps through run(n_steps, counts, sums, kept, stream); return variables by face."""
+    """Stream steps through run(n_steps, counts, tallies, stream); return variables by face."""
     counts = np.zeros((case.n_replicates, len(FACES), MOST + 1), np.int64)
     sums = np.zeros((case.n_replicates, len(FACES), len(SUMS)))
+    speeds = np.zeros((case.n_replicates, len(FACES), SPEED_BINS), np.int64)
+    width = SPEED_WIDTH * math.sqrt(case.parameters["temperature"])
     kept, n_kept = np.empty((RECORDED, 7)), 0
     for replicate in range(case.n_replicates):
         stream = new_stream(case.seed, case.id, replicate)
-        more = run(case.n_draws, counts[replicate], sums[replicate], kept[n_kept:], stream)
-        n_kept += more
+        tallies = sums[replicate], speeds[replicate], width, kept[n_kept:]
+        n_kept += run(case.n_draws, counts[replicate], tallies, stream)
         progress((replicate + 1) * case.n_draws)
     dims = ("replicate", "face")
     return {
         "steps": described(counts, (*dims, "number"), "steps by number of particles"),
         "sum": described(sums, (*dims, "what"), "sums over the particles: " + ", ".join(SUMS)),
+        "speeds": described(speeds, (*dims, "bin"), "particles by normal velocity, last: larger"),
+        "speed_edge": described(np.arange(SPEED_BINS) * width, ("edge",), "lower edge of the bin"),
         "kept": described(kept[:n_kept], ("kept", "part"), "face, position and velocity"),
     }
 
@@ -147,7 +152,8 @@ def sample_injection(case, progress):
 
     Returns
     -------
-    dict of steps[replicate, face, number], sum[replicate, face, what], kept[kept, part]
+    dict of steps[replicate, face, number], sum[replicate, face, what], kept[kept, part],
+    speeds[replicate, face, bin]
     """
     p = case.parameters
     names = ("density", "temperature", "drift", "half_width")
@@ -221,16 +227,15 @@ def sample_sphere_points(case, progress):
     p = case.parameters
     n_points = np.array(p["n_points"], dtype=np.int64)
     inside = np.empty((len(p["dimension"]), case.n_replicates, n_points.size), np.int64)
-    count = integration.count_random
-    if p["generator"] == "exhausted":
-        count = integration.count_exhausted
+    count = {
+        "good": integration.count_random,
+        "exhausted": integration.count_exhausted,
+        "congruential": integration.count_congruential,
+    }.get(p["generator"], integration.count_sobol)
     for k, dimension in enumerate(p["dimension"]):
         for replicate in range(case.n_replicates):
             stream = new_stream(case.seed, f"{case.id} dimension {dimension}", replicate)
-            if p["generator"] == "sobol":
-                inside[k, replicate] = integration.count_sobol(n_points, dimension, stream)
-            else:
-                count(inside[k, replicate], n_points, dimension, stream)
+            count(inside[k, replicate], n_points, dimension, stream)
         progress(k + 1)
     return {
         "inside": described(inside, ("dimension", "replicate", "points"), "points in the sphere"),
@@ -240,7 +245,7 @@ def sample_sphere_points(case, progress):
 
 
 def sample_area(case, progress):
-    """Integrate (1 - x**2)**exponent with many seeds (exercise 3): estimate[method, replicate, n]."""
+    """Integrate (1 - x**2)**exponent with many seeds: estimate[way, replicate, points]."""
     p = case.parameters
     n_points = np.array(p["n_points"], dtype=np.int64)
     sums = np.empty((2, case.n_replicates, n_points.size))
@@ -251,7 +256,7 @@ def sample_area(case, progress):
         sums[:, replicate] = part
     progress(case.n_replicates)
     return {
-        "estimate": described(2.0 * sums / n_points, ("method", "replicate", "points"), "area"),
+        "estimate": described(2.0 * sums / n_points, ("way", "replicate", "points"), "area"),
         "points": described(n_points, ("points",), "number of points"),
     }
 

@@ -1,0 +1,344 @@
+"""Fig. 11.4 of the chapter: volume of the 4-sphere by lattice and Monte Carlo, and d = 2 to 8."""
+
+import math
+
+from kacsim.cases import make_case
+from kacsim.items._lazy import estimate, np, plotting, slope, store, techniques_exact, verdict, xr
+
+LATTICE_BLOCK = 5  # neighbouring M whose errors may depend on each other
+GENERATORS = ("good", "exhausted", "congruential")
+LABELS = ("Monte Carlo, good", "numbers run out", "congruential")
+MANY = ("lattice", "random", "sobol")
+MANY_LABELS = ("lattice", "Monte Carlo", "Sobol, scrambled")
+
+
+def _points(settings, generator, dimension, n_points, n_replicates):
+    return make_case(
+        "sphere_points",
+        generator=generator,
+        dimension=dimension,
+        n_points=n_points,
+        n_draws=1,
+        n_replicates=n_replicates,
+        seed=settings["seed"],
+    )
+
+
+def _cases(settings):
+    edges = list(range(1, settings["largest_edge"] + 1))
+    size, bad = settings["n_replicates"], settings["bad_n_replicates"]
+    found = {
+        "lattice": make_case(
+            "sphere_lattice",
+            dimension=settings["dimension"],
+            edge=edges,
+            n_draws=1,
+            n_replicates=1,
+            seed=settings["seed"],
+        )
+    }
+    shown = [settings["shown_dimension"]], [edge ** settings["shown_dimension"] for edge in edges]
+    for name in GENERATORS:
+        found[name] = _points(settings, name, *shown, size if name == "good" else bad)
+    powers = [2**k for k in range(settings["first_power"], settings["last_power"] + 1)]
+    many = settings["dimension"], powers, settings["many_n_replicates"]
+    found["random"] = _points(settings, "good", *many)
+    found["sobol"] = _points(settings, "sobol", *many)
+    return found
+
+
+def cases(settings):
+    """Return lattices up to the largest edge, and points of every generator."""
+    return list(_cases(settings).values())
+
+
+def _errors(sample, dimension):
+    """Return fractional errors of points, float64[replicate, points], and the numbers of points."""
+    place = list(sample["dimension"].values).index(dimension)
+    n = sample["points"].values
+    share = sample["inside"].values[place] / n
+    return share / techniques_exact.ball_volume(dimension) - 1.0, n
+
+
+def _rms(errors):
+    """Return the root mean square over replicates and its standard error."""
+    mean = [estimate.of_replicates(column) for column in (errors**2).T]
+    root = np.sqrt([m.value for m in mean])
+    return root, np.array([m.standard_error for m in mean]) / np.maximum(2.0 * root, 1e-300)
+
+
+def _fit(errors, n, first):
+    """Return the slope of errors of replicates over the numbers of points from `first` on."""
+    keep = n >= first
+    many = np.broadcast_to(n[keep], errors[:, keep].shape)
+    groups = np.broadcast_to(np.arange(errors.shape[0])[:, None], many.shape)
+    squares = errors[:, keep] ** 2
+    return slope.of_squares(many.ravel(), squares.ravel(), groups.ravel())
+
+
+def _lattice(sample, dimension):
+    """Return the fractional errors of the lattice and the edges."""
+    place = list(sample["dimension"].values).index(dimension)
+    edge = sample["edge"].values.astype(float)
+    share = sample["inside"].values[place] / edge**dimension
+    return share / techniques_exact.ball_volume(dimension) - 1.0, edge
+
+
+def _fit_lattice(sample, dimension, settings):
+    error, edge = _lattice(sample, dimension)
+    keep = edge >= settings["fit_from_edge"]
+    groups = np.arange(keep.sum()) // LATTICE_BLOCK
+    return slope.of_squares(edge[keep] ** dimension, error[keep] ** 2, groups)
+
+
+def reduce(samples, settings):
+    """Return fractional errors against N, the powers of N with errors, and who is ahead."""
+    found = {name: samples[case.id] for name, case in _cases(settings).items()}
+    shown, dimensions = settings["shown_dimension"], settings["dimension"]
+    first = settings["fit_from_edge"] ** shown
+    error, edge = _lattice(found["lattice"], shown)
+    rows, fits = [], [_fit_lattice(found["lattice"], shown, settings)]
+    for name in GENERATORS:
+        errors, n = _errors(found[name], shown)
+        rows.append(_rms(errors))
+        fits.append(_fit(errors, n, first))
+    slopes, many = np.empty((2, len(MANY), len(dimensions))), []
+    level = np.empty(len(dimensions))
+    for i, d in enumerate(dimensions):
+        lattice, level[i] = _fit_lattice(found["lattice"], d, settings)
+        parts = [lattice]
+        for name in MANY[1:]:
+            errors, powers = _errors(found[name], d)
+            parts.append(_fit(errors, powers, powers[0])[0])
+            many.append(_rms(errors))
+        slopes[:, :, i] = np.array([[p.value, p.standard_error] for p in parts]).T
+    one = [techniques_exact.point_error(d) for d in dimensions]
+    described, at = store.described, ("generator", "edge")
+    both = np.array(dimensions, dtype=float)
+    cross = [_crossing(a, level[i], slopes[0, 0, i]) for i, a in enumerate(one)]
+    columns = np.array(many).reshape(len(dimensions), 2, 2, -1)
+    lattices = np.stack([_lattice(found["lattice"], d)[0] for d in dimensions])
+    ahead = _ahead(found, error, edge, shown, settings)
+    variables = {
+        "lattice_error": described(np.abs(error), ("edge",), "fractional error of the lattice"),
+        "rms": described([r[0] for r in rows], at, "root mean square fractional error"),
+        "rms_error": described([r[1] for r in rows], at, "standard error"),
+        "shown_slope": described([f[0].value for f in fits], ("line",), "power of N"),
+        "shown_slope_error": described([f[0].standard_error for f in fits], ("line",), "its error"),
+        "slope": described(slopes[0], ("way", "dimension"), "power of N"),
+        "slope_error": described(slopes[1], ("way", "dimension"), "standard error"),
+        "lattice_level": described(level, ("dimension",), "lattice's error extrapolated to N = 1"),
+        "point_error": described(one, ("dimension",), "exact error of one random point"),
+        "lattice_exponent": described(
+            np.where(both == 2.0, -0.75, -2.0 / both),
+            ("dimension",),
+            "power predicted of a lattice",
+        ),
+        "sobol_exponent": described(
+            -0.5 - 0.5 / both, ("dimension",), "power by counting cells that the surface cuts"
+        ),
+        "crossing": described(cross, ("dimension",), "N from which Monte Carlo is ahead"),
+        "many_lattice": described(np.abs(lattices), ("dimension", "edge"), "fractional error"),
+        "many_rms": described(
+            columns[:, :, 0], ("dimension", "points_way", "points"), "rms fractional error"
+        ),
+        "many_rms_error": described(
+            columns[:, :, 1], ("dimension", "points_way", "points"), "standard error"
+        ),
+        "ahead": described(ahead.value, (), "log10 of rms Monte Carlo over rms lattice, top half"),
+        "ahead_error": described(ahead.standard_error, (), "standard error"),
+    }
+    coords = {
+        "edge": ("edge", edge),
+        "n_points": ("edge", edge**shown),
+        "generator": list(GENERATORS),
+        "line": ["lattice", *GENERATORS],
+        "way": list(MANY),
+        "points_way": list(MANY[1:]),
+        "dimension": dimensions,
+        "points": found["random"]["points"].values,
+    }
+    return xr.Dataset(variables, coords=coords)
+
+
+def _crossing(one, level, power):
+    """Return the N at which the lattice's fitted error equals that of random points."""
+    gap = power + 0.5
+    # a lattice that falls as fast never falls behind
+    return float((one / level) ** (1.0 / gap)) if gap > 0.02 else math.inf
+
+
+def _ahead(found, error, edge, shown, settings):
+    """Return log10 of the ratio of rms errors over the upper half of the edges, jackknifed."""
+    top = edge >= max(settings["fit_from_edge"], settings["largest_edge"] // 2)
+    weight = edge[top] ** shown  # N times the squared error: every N counts alike
+    drawn, _ = _errors(found["good"], shown)
+    random = (drawn[:, top] ** 2 * weight).mean(axis=1)
+    lattice = error[top] ** 2 * weight
+    groups = np.arange(lattice.size) // LATTICE_BLOCK
+    parts = np.bincount(groups, lattice) / np.bincount(groups)
+    value, errors = 0.5 * math.log10(random.mean() / lattice.mean()), []
+    for part in (random, parts):
+        mean = estimate.of_replicates(part)
+        errors.append(mean.standard_error / mean.value * 0.5 / math.log(10.0))
+    return estimate.Mean(value, math.hypot(*errors))
+
+
+def claims(dataset):
+    """Test the powers of N, the bad generator, and where Monte Carlo gets ahead."""
+    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
+    last = dataset.isel(edge=-1)
+    good, bad, full = (last.sel(generator=name) for name in GENERATORS)
+    n = f"{float(last.n_points):.0e}"
+    kept = math.hypot(float(bad.rms_error / bad.rms), float(good.rms_error / good.rms))
+    found = [
+        verdict.Finding("techniques_fig4_lattice", value[0], error[0]),
+        verdict.Finding("techniques_fig4_random", value[1], error[1]),
+        verdict.Finding(
+            "techniques_fig4_difference", value[0] - value[1], math.hypot(error[0], error[1])
+        ),
+        verdict.Finding(
+            "techniques_fig4_bad",
+            math.log10(float(bad.rms / good.rms)),
+            kept / math.log(10.0),
+            evidence=f"N = {n}: error {float(bad.rms):.1e}, of the good generator "
+            f"{float(good.rms):.1e}, of a congruential one that runs out {float(full.rms):.1e}.",
+        ),
+        verdict.Finding(
+            "techniques_fig4_as_well", float(dataset.ahead), float(dataset.ahead_error)
+        ),
+    ]
+    for d in dataset.dimension.values:
+        here = dataset.sel(dimension=d, way="lattice")
+        power = float(here.slope), float(here.slope_error)
+        if d == 2:
+            fixed = {"printed": -2.0 / d, "corrected": float(here.lattice_exponent)}
+            found.append(verdict.Finding("techniques_fig4_circle", *power, **fixed))
+        elif d > 2:
+            found.append(
+                verdict.Finding(f"techniques_fig4_power_{d}", *power, printed=-2.0 / float(d))
+            )
+    largest = dataset.isel(dimension=-1)
+    gap = largest.slope.sel(way="lattice") - largest.slope.sel(way="random")
+    both = [float(largest.slope_error.sel(way=name)) for name in MANY[:2]]
+    found.append(
+        verdict.Finding(
+            "techniques_fig4_higher",
+            float(gap),
+            math.hypot(*both),
+            evidence=f"d = {int(largest.dimension)}; Monte Carlo is ahead from N = "
+            f"{float(largest.crossing):.1e} on.",
+        )
+    )
+    return found
+
+
+def draw(dataset):
+    """Draw errors against N in 4 and in the most dimensions, powers of N, and who is ahead."""
+    figure, axes = plotting.panels(2, 2, height=3.0, width=8.0)
+    s = dataset.attrs["settings"]
+    style = {"ms": 2.5, "lw": 0}
+    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
+
+    def named(name, k):
+        return f"{name}: {value[k]:.3f} ± {error[k]:.3f}"
+
+    axes[0].plot(
+        dataset.n_points,
+        dataset.lattice_error,
+        "o",
+        color=plotting.COLOURS[0],
+        label=named("lattice", 0),
+        **style,
+    )
+    for k, name in enumerate(GENERATORS):
+        here = dataset.sel(generator=name)
+        label = named(LABELS[k], 1) if k == 0 else LABELS[k]
+        axes[0].errorbar(
+            here.n_points,
+            here.rms,
+            here.rms_error,
+            fmt=plotting.MARKERS[k + 1],
+            color=plotting.COLOURS[k + 1],
+            elinewidth=0.6,
+            label=label,
+            **style,
+        )
+    one = techniques_exact.point_error(s["shown_dimension"])
+    axes[0].plot(
+        dataset.n_points,
+        one * dataset.n_points**-0.5,
+        color="black",
+        lw=1,
+        label="exact, $N^{-1/2}$",
+    )
+    axes[0].set_title(f"$d$ = {s['shown_dimension']}; fitted powers of $N$")
+    _many(axes[1], dataset.isel(dimension=-1))
+    lines = (
+        ("lattice_exponent", "$-2/d$ ($-3/4$ at $d$ = 2)", "-"),
+        ("sobol_exponent", "$-1/2-1/(2d)$", "--"),
+    )
+    d = dataset.dimension.values
+    for k, name in enumerate(MANY):
+        here = dataset.sel(way=name)
+        plotting.points(axes[2], d, here.slope, here.slope_error, k, MANY_LABELS[k], line=False)
+    for variable, label, dash in lines:
+        axes[2].plot(d, dataset[variable], color="0.3", ls=dash, lw=1, label=label)
+    axes[2].axhline(-0.5, color="black", ls=":", lw=1.2, label="$-1/2$")
+    axes[2].set_ylim(-0.95, 0.12)
+    axes[2].set_ylabel("power of $N$")
+    axes[2].legend(ncols=2, loc="upper left", frameon=False)
+    for k, n in enumerate((1e4, 1e8, 1e12)):
+        lattice = dataset.lattice_level * n ** dataset.slope.sel(way="lattice")
+        ratio = dataset.point_error * n**-0.5 / lattice
+        label = f"$N$ = {plotting.power_of_ten(n)}"
+        axes[3].plot(
+            d,
+            ratio,
+            plotting.MARKERS[k] + "-",
+            ms=4,
+            lw=0.8,
+            color=plotting.COLOURS[k],
+            label=label,
+        )
+    axes[3].axhline(1.0, color="black", lw=1)
+    axes[3].set_yscale("log")
+    axes[3].set_ylabel("error, Monte Carlo / lattice (fit)")
+    axes[3].legend(title="above 1 the lattice is ahead", frameon=False)
+    for axis in axes[2:]:
+        axis.set_xlabel("dimension $d$")
+    for axis in axes[:2]:
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_xlabel("number of points $N$")
+        axis.set_ylabel("fractional error")
+        axis.legend(loc="lower left", frameon=False)
+    axes[0].set_ylim(1e-9, 10.0)
+    return figure
+
+
+def _many(axis, here):
+    """Draw the errors in the most dimensions."""
+    d = int(here.dimension)
+    axis.plot(
+        here.edge.values**d,
+        here.many_lattice,
+        "o",
+        ms=2.5,
+        color=plotting.COLOURS[0],
+        label=MANY_LABELS[0],
+    )
+    for k, name in enumerate(MANY[1:]):
+        one = here.sel(points_way=name)
+        plotting.points(
+            axis,
+            one.points,
+            one.many_rms,
+            one.many_rms_error,
+            k + 1,
+            MANY_LABELS[k + 1],
+            line=False,
+        )
+    grid = np.array([1.0, float(here.edge[-1]) ** d])
+    axis.plot(grid, float(here.point_error) * grid**-0.5, color="black", lw=1, label="$N^{-1/2}$")
+    axis.set_title(f"$d$ = {d}")

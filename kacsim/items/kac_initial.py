@@ -100,5 +100,5 @@ def draw(dataset):
     axes[1].plot(place[1:], dataset.predicted, "_", ms=30, color="black", label="2 × area")
     axes[1].set_xticks(place, ["table", *(name.replace(" ", "\n", 1) for name in LABELS)])
     axes[1].set_ylabel("uniforms per draw")
-    axes[1].legend()
+    axes[1].legend(markerscale=0.4)
     return figure

@@ -200,7 +200,7 @@ def draw(dataset):
         n = dataset.points.values
         line = s["accuracy"] * np.sqrt(float(here.needed_exact) / n)
         axes[2].plot(n, line, color=plotting.COLOURS[k], lw=1)
-    axes[2].axhline(s["accuracy"], color="0.5", ls=":", lw=1.2, label=f"{s['accuracy']:.1%}")
+    axes[2].axhline(s["accuracy"], color="0.5", ls=":", lw=1.2, label=f"{100 * s['accuracy']:g} %")
     axes[2].set_xscale("log")
     axes[2].set_yscale("log")
     axes[2].set_xlabel("number of points $N$")

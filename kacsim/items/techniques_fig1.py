@@ -1,5 +1,6 @@
 """Fig. 11.1 of the chapter: inverse transform by a table equally spaced in u, and its error."""
 
+from kacsim.checks_techniques import SUPPORT
 from kacsim.items import _techniques
 from kacsim.items._lazy import (
     estimate,
@@ -14,7 +15,7 @@ from kacsim.items._lazy import (
 )
 
 LAWS = ("kac_initial", "exponential", "ramp")
-SHOWN = LAWS[0]
+SHOWN, COARSE = LAWS[0], 2  # the law and the place of the table that are drawn in full
 FINE = 20_001  # places in v where the error of a table is looked for
 BINS = 60
 
@@ -87,7 +88,9 @@ def reduce(samples, settings):
             slope.of_squares(many, (table["exact"][i] ** 2)[clear], np.arange(many.size))[0].value,
         )
     first = samples[_cases(settings)[SHOWN].id]
-    share, edges = _techniques.binned(first["counts"].values[0].sum(axis=0), BINS)
+    coarse = min(COARSE, len(sizes) - 1)
+    share, edges = _techniques.binned(first["counts"].values[coarse].sum(axis=0), BINS)
+    fine = np.linspace(*SUPPORT[SHOWN], FINE)
     last = estimate.of_share(round(float(first["last"].values[0].mean()) * n), n)
     described, dims = store.described, ("law", "n_table")
     texts = {
@@ -102,13 +105,13 @@ def reduce(samples, settings):
         "power": described(power[0], ("law",), "power of N_t of the measured deviation"),
         "power_error": described(power[1], ("law",), "standard error"),
         "power_exact": described(power[2], ("law",), "power of N_t of the exact error, same N_t"),
-        "share": described(share, ("bin",), f"share of draws, N_t = {sizes[0]}, {SHOWN}"),
+        "share": described(share, ("bin",), f"share of draws, N_t = {sizes[coarse]}, {SHOWN}"),
         "probability": described(edges, ("edge",), "cumulative probability of the bins' edges"),
         "node": described(
-            inverse_transform.law_table(SHOWN, sizes[0]), ("node",), "nodes of the first table"
+            inverse_transform.law_table(SHOWN, sizes[coarse]), ("node",), "nodes of that table"
         ),
         "value_edge": described(
-            np.interp(edges, np.linspace(0, 1, 8193), inverse_transform.law_table(SHOWN, 8192)),
+            np.interp(edges, techniques_exact.CUMULATIVES[SHOWN](fine), fine),
             ("edge",),
             "edges of the bins",
         ),
@@ -176,7 +179,7 @@ def draw(dataset):
     axes[0].legend(loc="upper left", bbox_to_anchor=(0.0, 1.0))
     edges = dataset.value_edge.values
     height = dataset.share.values / np.diff(edges)
-    plotting.bars(axes[1], edges, height, 1, f"draws, $N_t$ = {int(dataset.n_table[0])}")
+    plotting.bars(axes[1], edges, height, 1, f"draws, $N_t$ = {dataset.sizes['node'] - 1}")
     axes[1].plot(grid, techniques_exact.DENSITIES[SHOWN](grid), color="black", lw=1, label="$f_0$")
     axes[1].set_xlim(-3.0, 3.0)
     axes[1].set_ylabel("density")
@@ -188,7 +191,8 @@ def draw(dataset):
         axes[2].plot(
             dataset.n_table, here.distance, plotting.MARKERS[k], ms=4, color=plotting.COLOURS[k]
         )
-        label = f"{_techniques.NAMES[law]}: {float(here.power):.2f} ± {float(here.power_error):.2f}"
+        power = plotting.pm(estimate.Mean(float(here.power), float(here.power_error)))
+        label = f"{_techniques.NAMES[law]}: {power}".replace("-", "−")
         axes[2].plot(dataset.n_table, here.exact, color=plotting.COLOURS[k], lw=1, label=label)
     axes[2].axhline(float(dataset.floor), color="0.5", ls=":", lw=1.2, label="exact draws, median")
     axes[2].set_xscale("log", base=2)

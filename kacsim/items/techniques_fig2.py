@@ -116,5 +116,5 @@ def draw(dataset):
     axes[2].set_xlim(-0.5, len(METHODS) - 0.5)
     axes[2].set_ylim(0.0, 1.2 * float(dataset.uniforms.max()))
     axes[2].set_ylabel("uniforms per accepted value")
-    axes[2].legend(loc="upper right")
+    axes[2].legend(loc="upper right", markerscale=0.6)
     return figure

@@ -250,8 +250,8 @@ def _geometry(axis, dataset, s):
             label=("faces −x, +x", "faces −y, +y")[k],
         )
     axis.set_aspect("equal")
-    axis.set_xlim(-1.6 * width, 1.6 * width)
-    axis.set_ylim(-1.35 * height, 1.75 * height)
+    axis.set_xlim(-1.7 * max(width, height), 1.7 * max(width, height))
+    axis.set_ylim(-1.25 * height, 1.75 * height)
     axis.set_xlabel("position $x$")
     axis.set_ylabel("position $y$")
     axis.legend(loc="upper center", ncols=2, frameon=False)

@@ -26,7 +26,7 @@ def _points(settings, generator, dimension, n_points, n_replicates):
 
 def _cases(settings):
     edges = list(range(1, settings["largest_edge"] + 1))
-    size, bad = settings["n_replicates"], settings["bad_n_replicates"]
+    size = [settings[f"{name}n_replicates"] for name in ("", "bad_", "congruential_")]
     found = {
         "lattice": make_case(
             "sphere_lattice",
@@ -38,8 +38,8 @@ def _cases(settings):
         )
     }
     shown = [settings["shown_dimension"]], [edge ** settings["shown_dimension"] for edge in edges]
-    for name in GENERATORS:
-        found[name] = _points(settings, name, *shown, size if name == "good" else bad)
+    for name, n_replicates in zip(GENERATORS, size, strict=True):
+        found[name] = _points(settings, name, *shown, n_replicates)
     powers = [2**k for k in range(settings["first_power"], settings["last_power"] + 1)]
     many = settings["dimension"], powers, settings["many_n_replicates"]
     found["random"] = _points(settings, "good", *many)
@@ -241,7 +241,8 @@ def draw(dataset):
     value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
 
     def named(name, k):
-        return f"{name}: {value[k]:.3f} ± {error[k]:.3f}"
+        power = plotting.pm(estimate.Mean(float(value[k]), float(error[k])))
+        return f"{name}: {power}".replace("-", "−")
 
     axes[0].plot(
         dataset.n_points,

@@ -103,6 +103,7 @@ class Plan:
         self.config, wrong = complete(config, SCHEMA)
         self._refuse(wrong)
         self.settings = {name: self._settings_of(name) for name in items.NAMES}
+        self._refuse([problem for name in items.NAMES for problem in self._own_problems(name)])
         self.cases_of = {}
         problems = []
         for name in items.NAMES:
@@ -130,6 +131,12 @@ class Plan:
                 path = self._key_of(name, problem) or (name, problem.name)
                 found[(path, repr(problem.value))] = (path, problem.value, problem.allowed)
         return list(found.values())
+
+    def _own_problems(self, name):
+        """Return what an item itself finds wrong: settings that do not go together."""
+        check = getattr(items.load(name), "problems", lambda settings: ())
+        found = check(self.settings[name])
+        return [((name, key), self.config[name][key], sentence) for key, sentence in found]
 
     def _edge_problems(self, name):
         """Return the thresholds of an item that no fine bin begins at."""

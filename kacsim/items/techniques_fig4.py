@@ -2,123 +2,50 @@
 
 import math
 
-from kacsim.cases import make_case
-from kacsim.items._lazy import estimate, np, plotting, slope, store, techniques_exact, verdict, xr
+from kacsim.items import _spheres
+from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.items._spheres import GENERATORS, MANY
 
-LATTICE_BLOCK = 5  # neighbouring M whose errors may depend on each other
-GENERATORS = ("good", "exhausted", "congruential")
 LABELS = ("Monte Carlo, good", "numbers run out", "congruential")
-MANY = ("lattice", "random", "sobol")
 MANY_LABELS = ("lattice", "Monte Carlo", "Sobol, scrambled")
 
 
-def _points(settings, generator, dimension, n_points, n_replicates):
-    return make_case(
-        "sphere_points",
-        generator=generator,
-        dimension=dimension,
-        n_points=n_points,
-        n_draws=1,
-        n_replicates=n_replicates,
-        seed=settings["seed"],
-    )
-
-
-def _cases(settings):
-    edges = list(range(1, settings["largest_edge"] + 1))
-    size = [settings[f"{name}n_replicates"] for name in ("", "bad_", "congruential_")]
-    found = {
-        "lattice": make_case(
-            "sphere_lattice",
-            dimension=settings["dimension"],
-            edge=edges,
-            n_draws=1,
-            n_replicates=1,
-            seed=settings["seed"],
-        )
-    }
-    shown = [settings["shown_dimension"]], [edge ** settings["shown_dimension"] for edge in edges]
-    for name, n_replicates in zip(GENERATORS, size, strict=True):
-        found[name] = _points(settings, name, *shown, n_replicates)
-    powers = [2**k for k in range(settings["first_power"], settings["last_power"] + 1)]
-    many = settings["dimension"], powers, settings["many_n_replicates"]
-    found["random"] = _points(settings, "good", *many)
-    found["sobol"] = _points(settings, "sobol", *many)
-    return found
+problems = _spheres.problems
 
 
 def cases(settings):
     """Return lattices up to the largest edge, and points of every generator."""
-    return list(_cases(settings).values())
-
-
-def _errors(sample, dimension):
-    """Return fractional errors of points, float64[replicate, points], and the numbers of points."""
-    place = list(sample["dimension"].values).index(dimension)
-    n = sample["points"].values
-    share = sample["inside"].values[place] / n
-    return share / techniques_exact.ball_volume(dimension) - 1.0, n
-
-
-def _rms(errors):
-    """Return the root mean square over replicates and its standard error."""
-    mean = [estimate.of_replicates(column) for column in (errors**2).T]
-    root = np.sqrt([m.value for m in mean])
-    return root, np.array([m.standard_error for m in mean]) / np.maximum(2.0 * root, 1e-300)
-
-
-def _fit(errors, n, first):
-    """Return the slope of errors of replicates over the numbers of points from `first` on."""
-    keep = n >= first
-    many = np.broadcast_to(n[keep], errors[:, keep].shape)
-    groups = np.broadcast_to(np.arange(errors.shape[0])[:, None], many.shape)
-    squares = errors[:, keep] ** 2
-    return slope.of_squares(many.ravel(), squares.ravel(), groups.ravel())
-
-
-def _lattice(sample, dimension):
-    """Return the fractional errors of the lattice and the edges."""
-    place = list(sample["dimension"].values).index(dimension)
-    edge = sample["edge"].values.astype(float)
-    share = sample["inside"].values[place] / edge**dimension
-    return share / techniques_exact.ball_volume(dimension) - 1.0, edge
-
-
-def _fit_lattice(sample, dimension, settings):
-    error, edge = _lattice(sample, dimension)
-    keep = edge >= settings["fit_from_edge"]
-    groups = np.arange(keep.sum()) // LATTICE_BLOCK
-    return slope.of_squares(edge[keep] ** dimension, error[keep] ** 2, groups)
+    return list(_spheres.cases(settings).values())
 
 
 def reduce(samples, settings):
     """Return fractional errors against N, the powers of N with errors, and who is ahead."""
-    found = {name: samples[case.id] for name, case in _cases(settings).items()}
+    found = {name: samples[case.id] for name, case in _spheres.cases(settings).items()}
     shown, dimensions = settings["shown_dimension"], settings["dimension"]
     first = settings["fit_from_edge"] ** shown
-    error, edge = _lattice(found["lattice"], shown)
-    rows, fits = [], [_fit_lattice(found["lattice"], shown, settings)]
+    error, edge = _spheres.lattice_errors(found["lattice"], shown)
+    rows, fits = [], [_spheres.fit_lattice(found["lattice"], shown, settings)]
     for name in GENERATORS:
-        errors, n = _errors(found[name], shown)
-        rows.append(_rms(errors))
-        fits.append(_fit(errors, n, first))
+        errors, n = _spheres.errors_of(found[name], shown)
+        rows.append(_spheres.rms(errors))
+        fits.append(_spheres.fit(errors, n, first))
     slopes, many = np.empty((2, len(MANY), len(dimensions))), []
     level = np.empty(len(dimensions))
     for i, d in enumerate(dimensions):
-        lattice, level[i] = _fit_lattice(found["lattice"], d, settings)
+        lattice, level[i] = _spheres.fit_lattice(found["lattice"], d, settings)
         parts = [lattice]
         for name in MANY[1:]:
-            errors, powers = _errors(found[name], d)
-            parts.append(_fit(errors, powers, powers[0])[0])
-            many.append(_rms(errors))
+            errors, powers = _spheres.errors_of(found[name], d)
+            parts.append(_spheres.fit(errors, powers, powers[0])[0])
+            many.append(_spheres.rms(errors))
         slopes[:, :, i] = np.array([[p.value, p.standard_error] for p in parts]).T
     one = [techniques_exact.point_error(d) for d in dimensions]
     described, at = store.described, ("generator", "edge")
     both = np.array(dimensions, dtype=float)
-    cross = [_crossing(a, level[i], slopes[0, 0, i]) for i, a in enumerate(one)]
+    cross = [_spheres.crossing(a, level[i], slopes[0, 0, i]) for i, a in enumerate(one)]
     columns = np.array(many).reshape(len(dimensions), 2, 2, -1)
-    lattices = np.stack([_lattice(found["lattice"], d)[0] for d in dimensions])
-    ahead = _ahead(found, error, edge, shown, settings)
+    lattices = np.stack([_spheres.lattice_errors(found["lattice"], d)[0] for d in dimensions])
+    ahead = _spheres.ahead(found, error, edge, shown, settings)
     variables = {
         "lattice_error": described(np.abs(error), ("edge",), "fractional error of the lattice"),
         "rms": described([r[0] for r in rows], at, "root mean square fractional error"),
@@ -159,29 +86,6 @@ def reduce(samples, settings):
         "points": found["random"]["points"].values,
     }
     return xr.Dataset(variables, coords=coords)
-
-
-def _crossing(one, level, power):
-    """Return the N at which the lattice's fitted error equals that of random points."""
-    gap = power + 0.5
-    # a lattice that falls as fast never falls behind
-    return float((one / level) ** (1.0 / gap)) if gap > 0.02 else math.inf
-
-
-def _ahead(found, error, edge, shown, settings):
-    """Return log10 of the ratio of rms errors over the upper half of the edges, jackknifed."""
-    top = edge >= max(settings["fit_from_edge"], settings["largest_edge"] // 2)
-    weight = edge[top] ** shown  # N times the squared error: every N counts alike
-    drawn, _ = _errors(found["good"], shown)
-    random = (drawn[:, top] ** 2 * weight).mean(axis=1)
-    lattice = error[top] ** 2 * weight
-    groups = np.arange(lattice.size) // LATTICE_BLOCK
-    parts = np.bincount(groups, lattice) / np.bincount(groups)
-    value, errors = 0.5 * math.log10(random.mean() / lattice.mean()), []
-    for part in (random, parts):
-        mean = estimate.of_replicates(part)
-        errors.append(mean.standard_error / mean.value * 0.5 / math.log(10.0))
-    return estimate.Mean(value, math.hypot(*errors))
 
 
 def claims(dataset):

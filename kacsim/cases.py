@@ -229,7 +229,7 @@ class Case:
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
-        home = checks_techniques if self.family == "techniques" else checks
+        home = checks if hasattr(checks, self.sampler) else checks_techniques
         check = getattr(home, self.sampler)
         return [*check(**self.parameters), *checks.amount(**size)]
 

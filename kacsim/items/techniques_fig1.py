@@ -148,57 +148,51 @@ def claims(dataset):
 def draw(dataset):
     """Draw the table's use, draws through a coarse table, and the error against N_t."""
     figure, axes = plotting.panels(1, 3)
-    cumulative = techniques_exact.CUMULATIVES[SHOWN]
     grid = np.linspace(-3.0, 3.0, 301)
-    axes[0].plot(grid, cumulative(grid), color="black", lw=1, label="$P(v)$")
-    nodes = dataset.node.values
-    u = np.linspace(0.0, 1.0, nodes.size)
-    axes[0].plot(
-        nodes,
-        u,
-        "o-",
-        ms=4,
-        lw=0.8,
-        color=plotting.COLOURS[1],
-        label=f"table, $N_t$ = {u.size - 1}",
-    )
-    chosen = 0.62
-    value = float(np.interp(chosen, u, nodes))
-    axes[0].annotate(
-        "",
-        (value, 0.0),
-        (value, chosen),
-        arrowprops={"arrowstyle": "->", "color": plotting.COLOURS[0]},
-    )
-    axes[0].plot([-3.0, value], [chosen, chosen], color=plotting.COLOURS[0], lw=1)
-    axes[0].text(-2.9, chosen + 0.02, "uniform $u$", color=plotting.COLOURS[0], fontsize=8)
-    axes[0].text(value + 0.1, 0.03, "drawn $v$", color=plotting.COLOURS[0], fontsize=8)
-    axes[0].set_xlim(-3.0, 3.0)
-    axes[0].set_ylim(0.0, 1.05)
-    axes[0].set_ylabel("cumulative probability $P(v)$")
-    axes[0].legend(loc="upper left", bbox_to_anchor=(0.0, 1.0))
+    _use(axes[0], dataset, grid)
     edges = dataset.value_edge.values
     height = dataset.share.values / np.diff(edges)
     plotting.bars(axes[1], edges, height, 1, f"draws, $N_t$ = {dataset.sizes['node'] - 1}")
     axes[1].plot(grid, techniques_exact.DENSITIES[SHOWN](grid), color="black", lw=1, label="$f_0$")
-    axes[1].set_xlim(-3.0, 3.0)
     axes[1].set_ylabel("density")
     plotting.legends_above([axes[1]], share=0.25)
     for axis in axes[:2]:
+        axis.set_xlim(-3.0, 3.0)
         axis.set_xlabel("velocity $v$")
+    _errors(axes[2], dataset)
+    return figure
+
+
+def _use(axis, dataset, grid, u=0.62):
+    """Draw how a uniform u becomes a value."""
+    nodes, steps = dataset.node.values, np.linspace(0.0, 1.0, dataset.sizes["node"])
+    orange, blue = plotting.COLOURS[1], plotting.COLOURS[0]
+    axis.plot(grid, techniques_exact.CUMULATIVES[SHOWN](grid), color="black", lw=1, label="$P(v)$")
+    label = f"table, $N_t$ = {nodes.size - 1}"
+    axis.plot(nodes, steps, "o-", ms=4, lw=0.8, color=orange, label=label)
+    value = float(np.interp(u, steps, nodes))
+    arrow = {"arrowstyle": "->", "color": blue}
+    axis.annotate("", (value, 0.0), (value, u), arrowprops=arrow)
+    axis.plot([grid[0], value], [u, u], color=blue, lw=1)
+    axis.text(grid[0] + 0.1, u + 0.02, "uniform $u$", color=blue, fontsize=8)
+    axis.text(value + 0.1, 0.03, "drawn $v$", color=blue, fontsize=8)
+    axis.set_ylim(0.0, 1.05)
+    axis.set_ylabel("cumulative probability $P(v)$")
+    axis.legend(loc="upper left")
+
+
+def _errors(axis, dataset):
+    """Draw distances of the draws, and the exact errors of the tables, against N_t."""
     for k, law in enumerate(LAWS):
-        here = dataset.sel(law=law)
-        axes[2].plot(
-            dataset.n_table, here.distance, plotting.MARKERS[k], ms=4, color=plotting.COLOURS[k]
-        )
+        here, colour = dataset.sel(law=law), plotting.COLOURS[k]
+        axis.plot(dataset.n_table, here.distance, plotting.MARKERS[k], ms=4, color=colour)
         power = plotting.pm(estimate.Mean(float(here.power), float(here.power_error)))
         label = f"{_techniques.NAMES[law]}: {power}".replace("-", "−")
-        axes[2].plot(dataset.n_table, here.exact, color=plotting.COLOURS[k], lw=1, label=label)
-    axes[2].axhline(float(dataset.floor), color="0.5", ls=":", lw=1.2, label="exact draws, median")
-    axes[2].set_xscale("log", base=2)
-    axes[2].set_yscale("log")
-    axes[2].set_ylim(1e-4 * min(1.0, float(dataset.floor) / 2e-4), 20.0)
-    axes[2].set_xlabel("intervals of the table $N_t$")
-    axes[2].set_ylabel("distance from the law")
-    axes[2].legend(title="power of $N_t$", loc="upper right", frameon=False)
-    return figure
+        axis.plot(dataset.n_table, here.exact, color=colour, lw=1, label=label)
+    axis.axhline(float(dataset.floor), color="0.5", ls=":", lw=1.2, label="exact draws, median")
+    axis.set_xscale("log", base=2)
+    axis.set_yscale("log")
+    axis.set_ylim(1e-4, 20.0)
+    axis.set_xlabel("intervals of the table $N_t$")
+    axis.set_ylabel("distance from the law")
+    axis.legend(title="power of $N_t$", loc="upper right", frameon=False)

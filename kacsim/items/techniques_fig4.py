@@ -140,78 +140,10 @@ def claims(dataset):
 def draw(dataset):
     """Draw errors against N in 4 and in the most dimensions, powers of N, and who is ahead."""
     figure, axes = plotting.panels(2, 2, height=3.0, width=8.0)
-    s = dataset.attrs["settings"]
-    style = {"ms": 2.5, "lw": 0}
-    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
-
-    def named(name, k):
-        power = plotting.pm(estimate.Mean(float(value[k]), float(error[k])))
-        return f"{name}: {power}".replace("-", "−")
-
-    axes[0].plot(
-        dataset.n_points,
-        dataset.lattice_error,
-        "o",
-        color=plotting.COLOURS[0],
-        label=named("lattice", 0),
-        **style,
-    )
-    for k, name in enumerate(GENERATORS):
-        here = dataset.sel(generator=name)
-        label = named(LABELS[k], 1) if k == 0 else LABELS[k]
-        axes[0].errorbar(
-            here.n_points,
-            here.rms,
-            here.rms_error,
-            fmt=plotting.MARKERS[k + 1],
-            color=plotting.COLOURS[k + 1],
-            elinewidth=0.6,
-            label=label,
-            **style,
-        )
-    one = techniques_exact.point_error(s["shown_dimension"])
-    axes[0].plot(
-        dataset.n_points,
-        one * dataset.n_points**-0.5,
-        color="black",
-        lw=1,
-        label="exact, $N^{-1/2}$",
-    )
-    axes[0].set_title(f"$d$ = {s['shown_dimension']}; fitted powers of $N$")
+    _shown(axes[0], dataset)
     _many(axes[1], dataset.isel(dimension=-1))
-    lines = (
-        ("lattice_exponent", "$-2/d$ ($-3/4$ at $d$ = 2)", "-"),
-        ("sobol_exponent", "$-1/2-1/(2d)$", "--"),
-    )
-    d = dataset.dimension.values
-    for k, name in enumerate(MANY):
-        here = dataset.sel(way=name)
-        plotting.points(axes[2], d, here.slope, here.slope_error, k, MANY_LABELS[k], line=False)
-    for variable, label, dash in lines:
-        axes[2].plot(d, dataset[variable], color="0.3", ls=dash, lw=1, label=label)
-    axes[2].axhline(-0.5, color="black", ls=":", lw=1.2, label="$-1/2$")
-    axes[2].set_ylim(-0.95, 0.12)
-    axes[2].set_ylabel("power of $N$")
-    axes[2].legend(ncols=2, loc="upper left", frameon=False)
-    for k, n in enumerate((1e4, 1e8, 1e12)):
-        lattice = dataset.lattice_level * n ** dataset.slope.sel(way="lattice")
-        ratio = dataset.point_error * n**-0.5 / lattice
-        label = f"$N$ = {plotting.power_of_ten(n)}"
-        axes[3].plot(
-            d,
-            ratio,
-            plotting.MARKERS[k] + "-",
-            ms=4,
-            lw=0.8,
-            color=plotting.COLOURS[k],
-            label=label,
-        )
-    axes[3].axhline(1.0, color="black", lw=1)
-    axes[3].set_yscale("log")
-    axes[3].set_ylabel("error, Monte Carlo / lattice (fit)")
-    axes[3].legend(title="above 1 the lattice is ahead", frameon=False)
-    for axis in axes[2:]:
-        axis.set_xlabel("dimension $d$")
+    _powers(axes[2], dataset)
+    _ratios(axes[3], dataset)
     for axis in axes[:2]:
         axis.set_xscale("log")
         axis.set_yscale("log")
@@ -219,7 +151,74 @@ def draw(dataset):
         axis.set_ylabel("fractional error")
         axis.legend(loc="lower left", frameon=False)
     axes[0].set_ylim(1e-9, 10.0)
+    for axis in axes[2:]:
+        axis.set_xlabel("dimension $d$")
     return figure
+
+
+def _shown(axis, dataset):
+    """Draw the errors of the published figure."""
+    dimension = dataset.attrs["settings"]["shown_dimension"]
+    style = {"ms": 2.5, "lw": 0}
+    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
+
+    def named(name, k):
+        power = plotting.pm(estimate.Mean(float(value[k]), float(error[k])))
+        return f"{name}: {power}".replace("-", "−")
+
+    n, colour = dataset.n_points, plotting.COLOURS[0]
+    axis.plot(n, dataset.lattice_error, "o", color=colour, label=named("lattice", 0), **style)
+    for k, name in enumerate(GENERATORS):
+        here = dataset.sel(generator=name)
+        axis.errorbar(
+            n,
+            here.rms,
+            here.rms_error,
+            fmt=plotting.MARKERS[k + 1],
+            color=plotting.COLOURS[k + 1],
+            elinewidth=0.6,
+            label=named(LABELS[k], 1) if k == 0 else LABELS[k],
+            **style,
+        )
+    one = techniques_exact.point_error(dimension)
+    axis.plot(n, one * n**-0.5, color="black", lw=1, label="exact, $N^{-1/2}$")
+    axis.set_title(f"$d$ = {dimension}; fitted powers of $N$")
+
+
+def _powers(axis, dataset):
+    """Draw the powers of N against the dimension, with predictions."""
+    d = dataset.dimension.values
+    for k, name in enumerate(MANY):
+        here = dataset.sel(way=name)
+        plotting.points(axis, d, here.slope, here.slope_error, k, MANY_LABELS[k], line=False)
+    for variable, label, dash in (
+        ("lattice_exponent", "$-2/d$ ($-3/4$ at $d$ = 2)", "-"),
+        ("sobol_exponent", "$-1/2-1/(2d)$", "--"),
+    ):
+        axis.plot(d, dataset[variable], color="0.3", ls=dash, lw=1, label=label)
+    axis.axhline(-0.5, color="black", ls=":", lw=1.2, label="$-1/2$")
+    axis.set_ylim(-0.95, 0.12)
+    axis.set_ylabel("power of $N$")
+    axis.legend(ncols=2, loc="upper left", frameon=False)
+
+
+def _ratios(axis, dataset):
+    """Draw the exact error of Monte Carlo over the fitted one of the lattice."""
+    for k, n in enumerate((1e4, 1e8, 1e12)):
+        lattice = dataset.lattice_level * n ** dataset.slope.sel(way="lattice")
+        axis.plot(
+            dataset.dimension,
+            dataset.point_error * n**-0.5 / lattice,
+            plotting.MARKERS[k] + "-",
+            ms=4,
+            lw=0.8,
+            color=plotting.COLOURS[k],
+            label=f"$N$ = {plotting.power_of_ten(n)}",
+        )
+    axis.axhline(1.0, color="black", lw=1)
+    axis.set_yscale("log")
+    axis.set_ylabel("error, Monte Carlo / lattice (fit)")
+    axis.legend(title="above 1 the lattice is ahead", frameon=False)
 
 
 def _many(axis, here):

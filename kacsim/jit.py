@@ -24,9 +24,7 @@ def kernel_sources(module):
     """
     model = (Path(module).parent / "model.py").as_posix()
     called = (model,) if (PACKAGE / model).exists() and model != module else ()
-    if (
-        module == "techniques/identity.py"
-    ):  # the one kernel that another folder's model is called by
+    if module == "techniques/identity.py":  # it calls another folder's model
         called += ("kac/model.py",)
     return (*COMMON_SOURCES, *called, module)
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from kacsim import sampling
+from kacsim import jit, sampling
 from kacsim.cases import make_case
 from kacsim.checks_techniques import SUPPORT
 from kacsim.statistics import slope
@@ -135,6 +135,10 @@ def test_entry_into_the_cuboid_twin():
         assert abs(moved[face // 2]) == pytest.approx(half[face // 2])
         assert np.sign(moved[face // 2]) == (1 if face % 2 else -1)
     assert {0, 1, 2, 3, 4, 5, -1} == set(faces)
+
+
+def test_the_identity_is_compiled_again_when_the_model_of_kac_changes():
+    assert "kac/model.py" in jit.kernel_sources("techniques/identity.py")
 
 
 def test_uniforms_are_counted_exactly():

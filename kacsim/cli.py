@@ -4,7 +4,7 @@ import argparse
 import math
 import sys
 
-from kacsim import cases, commands, plan
+from kacsim import cases, commands, meanings, plan
 from kacsim.checks import BudgetError
 
 USAGE_ERROR = 2
@@ -143,7 +143,7 @@ def _add_stages(reducing, drawing, reporting, compiling):
 def _add_sample(parent):
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
     for sampler, names in cases.SAMPLERS.items():
-        text = cases.DRAWS[sampler]
+        text = meanings.DRAWS[sampler]
         one = samplers.add_parser(sampler, help=text, description=f"Draw {text}.")
         for name in names:
             engine = name == "engine"  # of all others the case fills in the default
@@ -153,7 +153,7 @@ def _add_sample(parent):
                 type=_value(name),
                 required=name not in cases.DEFAULTS and not engine,
                 default="ancestral" if engine else None,
-                help=cases.MEANINGS[name],
+                help=meanings.MEANINGS[name],
                 **many,
             )
         one.add_argument("--n-draws", type=_integer, required=True, help="draws of a replicate")
@@ -163,9 +163,9 @@ def _add_sample(parent):
 
 
 def _value(name):
-    if name in ("algorithm", "engine", "initial"):
+    if name in ("algorithm", "engine", "initial", "law", "envelope", "generator"):
         return str
-    if name == "max_nodes":
+    if name in ("max_nodes", "n_table", "dimension", "edge", "n_points", "n_representatives"):
         return _integer
     return _count if name == "n_particles" else _float
 

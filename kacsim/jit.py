@@ -24,6 +24,8 @@ def kernel_sources(module):
     """
     model = (Path(module).parent / "model.py").as_posix()
     called = (model,) if (PACKAGE / model).exists() and model != module else ()
+    if module == "techniques/identity.py":  # it calls another folder's model
+        called += ("kac/model.py",)
     return (*COMMON_SOURCES, *called, module)
 
 

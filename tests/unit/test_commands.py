@@ -8,7 +8,8 @@ import netCDF4
 import pytest
 
 from kacsim import boltzmann, cli, estimating, kac, verify
-from kacsim.cases import DRAWS, MEANINGS, SAMPLERS, make_case
+from kacsim.cases import SAMPLERS, make_case
+from kacsim.meanings import DRAWS, MEANINGS
 from kacsim.progress import Progress
 from kacsim.provenance import ROOT
 

@@ -2,7 +2,9 @@
 
 import argparse
 import math
+import signal
 import sys
+import threading
 
 from kacsim import cases, commands, meanings, plan
 from kacsim.checks import BudgetError
@@ -49,6 +51,14 @@ EPILOG = """examples:
 The pipeline itself is run by `snakemake -c2 all`."""
 
 
+class Parser(argparse.ArgumentParser):
+    """Parser whose complaint is one line."""
+
+    def error(self, message):
+        """Print what is wrong and end with the status of a usage error."""
+        self.exit(USAGE_ERROR, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
 def main(argv=None):
     """Run one command; return the exit status: 0, or 2 with one sentence on stderr.
 
@@ -56,6 +66,9 @@ def main(argv=None):
     """
     from kacsim.store import StoreError
 
+    if threading.current_thread() is threading.main_thread():
+        # A job that is told to end cleans up after itself.
+        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     requests = [_parser(words).parse_args(words) for words in _split(argv)]
     try:
         if len(requests) > 1:
@@ -83,7 +96,7 @@ def _split(argv):
 def _parser(words=()):
     """Return the parser; that of the estimators, which need the compiler, only if it is called."""
     form = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="kacsim",
         description="Reproducible Monte Carlo experiments on gases.",
         epilog=EPILOG,

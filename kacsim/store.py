@@ -5,6 +5,7 @@ attribute holds a time, so that the same result has the same bytes.
 """
 
 import errno
+import glob
 import hashlib
 import json
 import os
@@ -33,6 +34,8 @@ def replace_file(path, write):
     temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        for left in path.parent.glob(f".{glob.escape(path.stem)}-????????{path.suffix}"):
+            left.unlink()  # of a job that was killed
         handle, temporary = tempfile.mkstemp(
             dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix
         )

@@ -69,7 +69,8 @@ def estimate_from(draw, factor, n_realizations, seed, name):
         nodes += int(counts.sum())
     mean = total / n_realizations
     # A product below the smallest normal number has lost its digits, a factor of 0 everything.
-    if factor == 0.0 or not math.isfinite(factor * mean) or 0.0 < abs(factor * mean) < SMALLEST:
+    lost = factor == 0.0 or (mean != 0.0 and abs(factor * mean) < SMALLEST)
+    if lost or not math.isfinite(factor * mean):
         raise ValueError("the probe lies where double precision holds no value: bring it nearer")
     spread = max(0.0, square - n_realizations * mean * mean) / (n_realizations - 1)
     return Estimate(

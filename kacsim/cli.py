@@ -34,6 +34,9 @@ COMMANDS = {
         "write the report from datasets and figures",
         "report --items kac_fig4 kac_fig5 --output report.html",
     ),
+    "print": ("print the report to PDF, by Chromium", "print"),
+    "keep": ("keep the report of a full run in reports/latest", "keep"),
+    "kept": ("say which kernels have changed since the kept report", "kept"),
     "compile": (
         "compile a module's kernels into the kernel cache",
         "compile kac/bird.py --output bird.txt",
@@ -103,9 +106,11 @@ def _parser(words=()):
 
         estimating.add_parsers(parts["estimate"])
     _add_stages(parts["reduce"], parts["draw"], parts["report"], parts["compile"])
+    _add_pages(parts["print"], parts["keep"], parts["kept"])
     one = parts["times"]
     one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
     one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970: later jobs")
+    one.add_argument("--output", metavar="FILE", help="write a page of all jobs instead")
     parts["benchmark"].add_argument("--repeats", type=int, default=5, help="runs; medians count")
     return parser
 
@@ -128,13 +133,23 @@ def _add_stages(reducing, drawing, reporting, compiling):
     reducing.add_argument("--output", required=True)
     drawing.add_argument("item")
     drawing.add_argument("--dataset", required=True)
-    drawing.add_argument("--output", required=True, nargs="+", help="files ending in png, svg, pdf")
+    drawing.add_argument("--output", required=True, nargs="+", help="png, svg, pdf or csv files")
     reporting.add_argument("--datasets", default="results/datasets", metavar="FOLDER")
     reporting.add_argument("--figures", default="results/figures", metavar="FOLDER")
     reporting.add_argument("--items", nargs="+", required=True)
     reporting.add_argument("--output", required=True)
+    reporting.add_argument("--recipe", default="snakemake -c2", help="what the page says to run")
     compiling.add_argument("module", choices=cases.KERNEL_MODULES)
     compiling.add_argument("--output", required=True, help="file that gets the sources' hash")
+
+
+def _add_pages(printing, keeping, asking):
+    printing.add_argument("--report", default="results/report/report.html", metavar="FILE")
+    printing.add_argument("--output", default="results/report/report.pdf", metavar="FILE")
+    keeping.add_argument("--results", default="results", metavar="FOLDER")
+    keeping.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
+    for one in (keeping, asking):
+        one.add_argument("--folder", default="reports/latest", help="where the report is kept")
 
 
 def _add_sample(parent):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
-from kacsim import items, report, store
+from kacsim import items, report, report_numbers, store
 
 CAPTIONS, ERRATA, TEMPLATE = (
     (report.TEXTS / name).read_text(encoding="utf-8")
@@ -50,7 +50,7 @@ L 1 1"/></defs>
     ],
 )
 def test_number(value, text):
-    assert report.number(value) == text
+    assert report_numbers.number(value) == text
 
 
 @pytest.mark.parametrize(
@@ -66,14 +66,14 @@ def test_number(value, text):
     ],
 )
 def test_an_estimate_shows_two_digits_of_its_error(value, error, text):
-    assert report.pm(value, error) == text
+    assert report_numbers.pm(value, error) == text
 
 
 @pytest.mark.parametrize(
     ("values", "text"), [([], "none"), ([5], "5"), ([1, 2], "1 and 2"), ([1, 2, 3], "1, 2 and 3")]
 )
 def test_a_list_in_words(values, text):
-    assert report.listed(values) == text
+    assert report_numbers.listed(values) == text
 
 
 # The texts

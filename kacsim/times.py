@@ -6,7 +6,7 @@ import platform
 import re
 from pathlib import Path
 
-STAGES = ("compile", "sample", "reduce", "draw", "report")
+STAGES = ("compile", "sample", "reduce", "draw", "report", "print")
 DRAWN = re.compile(r"^drew .* in ([0-9.]+) s$", re.MULTILINE)
 
 

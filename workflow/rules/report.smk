@@ -45,9 +45,9 @@ rule print_report:
     output:
         "results/report/report.pdf",
     log:
-        "logs/print_report.log",
+        "logs/print.log",
     benchmark:
-        "benchmarks/print_report.tsv"
+        "benchmarks/print.tsv"
     threads: 1
     resources:
         mem_mb=1500,

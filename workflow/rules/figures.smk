@@ -7,6 +7,12 @@ def labels_of(wildcards):
     return {"item": texts["label"], "shows": texts["title"]}
 
 
+def part_of(wildcards):
+    """Return whether an item is a figure of its text or a study."""
+    printed = labels_of(wildcards)["item"].startswith("Fig.")
+    return "Figures" if printed else "Studies and claims"
+
+
 def category_of(wildcards):
     """Return the text that an item belongs to."""
     texts = plan.report_texts("errata.yaml")
@@ -22,6 +28,7 @@ rule draw:
             "results/figures/{item}.svg",
             caption="../../reports/figure.rst",
             category=category_of,
+            subcategory=part_of,
             labels=labels_of,
         ),
         expand("results/figures/{{item}}.{format}", format=FORMATS[1:]),

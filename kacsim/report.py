@@ -26,6 +26,7 @@ from kacsim.provenance import ROOT
 from kacsim.report_numbers import (
     FIXED_SPACE,
     beside,
+    bound,
     fixed,
     listed,
     measured,
@@ -105,9 +106,8 @@ def environment():
 
 
 def _rendered(env, text, **words):
-    """Return a text with its expressions filled in; formulas do not break at their equals sign."""
-    unbroken = env.from_string(text).render(words).replace(" = ", f"{FIXED_SPACE}={FIXED_SPACE}")
-    return Markup(unbroken.strip())
+    """Return a text with its expressions filled in."""
+    return Markup(bound(env.from_string(text).render(words)).strip())
 
 
 def read_text(path):
@@ -156,7 +156,7 @@ def _worded(row, entry):
     reference = same(row["reference"]) if implied else printed(value, row["published_error"])
     return {
         "item": entry["item"],
-        "words": entry["text"],
+        "words": bound(entry["text"]),
         "source": entry["source"].replace(" ", FIXED_SPACE).replace(f",{FIXED_SPACE}", ", "),
         "implied": implied,
         "reference_text": f"> {reference}" if row["kind"] == "effect" else reference,
@@ -165,7 +165,7 @@ def _worded(row, entry):
         "exact": not error > 0,
         "z_text": "+" * (z > 0) + fixed(z, 0 if abs(z) >= 100 else 1),
         "p_text": f"p < {power(-300)}" if p < 1e-300 else f"p = {number(p, 2 if p < 0.1 else 3)}",
-        "evidence": typeset(row["evidence"]),
+        "evidence": bound(typeset(row["evidence"])),
     }
 
 

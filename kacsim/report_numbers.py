@@ -79,6 +79,11 @@ def typeset(text):
     return re.sub(r"(?<=[\s=(])-(?=\d)", MINUS, text)
 
 
+def bound(text):
+    """Return a text whose formulas and estimates do not break at = and at ±."""
+    return re.sub(" ([=±]) ", rf"{FIXED_SPACE}\1{FIXED_SPACE}", text)
+
+
 def printed(value, error):
     """Return a published number with its own digits, and its error, if known, with as many."""
     if not error > 0:

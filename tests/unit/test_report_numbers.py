@@ -45,6 +45,10 @@ def test_an_estimate_shows_two_digits_of_its_error(value, error, text):
     assert report_numbers.pm(value, error) == text
 
 
+def test_formulas_and_estimates_do_not_break():
+    assert report_numbers.bound("N = 5: 1 ± 2") == "N\u00a0=\u00a05: 1\u00a0±\u00a02"
+
+
 @pytest.mark.parametrize(
     ("values", "text"), [([], "none"), ([5], "5"), ([1, 2], "1 and 2"), ([1, 2, 3], "1, 2 and 3")]
 )

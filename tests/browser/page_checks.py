@@ -10,9 +10,12 @@ LINKS = "() => [...document.querySelectorAll('[href], [src]')].map(" + (
 WIDE = """() => {
   const room = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth <= room) return [];
-  return [...document.body.querySelectorAll('*')]
-    .filter(e => e.getBoundingClientRect().right > room + 1 && !e.closest('.scroll'))
-    .map(e => `${e.tagName} reaches ${e.getBoundingClientRect().right} of ${room} px`);
+  const clips = e => getComputedStyle(e).overflowX !== 'visible';
+  const clipped = e => e && (clips(e) || clipped(e.parentElement));
+  const found = [...document.body.querySelectorAll('*')]
+    .filter(e => e.getBoundingClientRect().right > room + 1 && !clipped(e.parentElement))
+    .map(e => `${e.tagName} reaches ${Math.ceil(e.getBoundingClientRect().right)} of ${room} px`);
+  return found.length ? found.slice(0, 5) : ['the page scrolls sideways'];
 }"""
 GROUNDS = """() => [...document.querySelectorAll('figure svg, .gallery svg')].map(svg => {
   for (let e = svg; e; e = e.parentElement) {

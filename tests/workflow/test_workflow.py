@@ -22,7 +22,7 @@ def test_the_smoke_run_makes_everything_once(finished):
     results = finished.folder / "results"
     for name in items.NAMES:
         for suffix in ("png", "svg", "pdf", "csv"):
-            assert (results / "figures" / f"{name}.{suffix}").stat().st_size > 500
+            assert (results / "figures" / f"{name}.{suffix}").stat().st_size > 100
     report = (results / "report/report.html").read_text(encoding="utf-8")
     assert all(f'id="{name}"' in report for name in items.NAMES)
     assert "-c2 --configfile config/smoke.yaml kac_fig1</code>" in report
@@ -43,7 +43,9 @@ def test_with_a_browser_the_report_is_printed_once(project):
     )
     fake.chmod(0o755)
     project.chromium = str(fake)
-    assert project.planned(*SMOKE) == {"print_report": 1, "all": 1}
+    # The report is written again too, since its texts lie elsewhere in a copy.
+    jobs = {"report": 1, "print_report": 1, "run_times": 1, "all": 1}
+    assert project.planned(*SMOKE) == jobs
     answer = project.snakemake(*SMOKE)
     assert answer.returncode == 0, answer.stderr
     assert "not printed" not in answer.stdout

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import browser, cases, items, plan
+from kacsim import browser, cases, console, items, plan
 from kacsim.provenance import ROOT, source_hash
 
 
@@ -36,6 +36,11 @@ PRINTED = ["results/report/report.pdf"] if browser.find() else []
 CONFIG_FILES = sorted(
     workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml"
 )
+
+if workflow.is_main_process and not workflow.dryrun:
+    console.quieten(
+        logger, [str(file) for file in CONFIG_FILES[1:]], ("all", *items.NAMES)
+    )
 
 try:
     the_plan = plan.Plan(config, CONFIG_FILES)
@@ -65,6 +70,7 @@ include: "workflow/rules/report.smk"
 
 onsuccess:
     shell(f"kacsim times --since {START}")
+    shell(f"kacsim summary --since {START}")
     page = Path("results/report/report.html")
     if not PRINTED and page.exists() and page.stat().st_mtime >= START:
         print(f"results/report/report.pdf: not printed: {browser.NONE}")

@@ -62,6 +62,7 @@ def run(repeats):
     _bird(repeats)
     _ancestral(repeats)
     _perfect(repeats)
+    _initial(repeats)
     _bkw_tree(repeats)
     _trap_tree(repeats)
     _memory()
@@ -161,6 +162,23 @@ def _nodes(call, n_draws, repeats):
     seconds = seconds_per_draw(one, n_draws, repeats)
     mean = statistics.median(counts[1:])
     return seconds / mean, mean
+
+
+def _initial(repeats):
+    """f0 by a table, by rejection and by the Gamma identity."""
+    from kacsim.techniques import identity, inverse_transform, rejection
+
+    stream = new_stream(1, "benchmark")
+    table = inverse_transform.law_table("kac_initial", 512)
+    bounds = {name: rejection.arguments("kac_initial", name) for name in ("constant", "closer")}
+    ways = {
+        "table": lambda n: inverse_transform.through_table(np.empty(n), table, stream),
+        "rejection, constant": lambda n: rejection.draw(np.empty(n), *bounds["constant"], stream),
+        "rejection, closer": lambda n: rejection.draw(np.empty(n), *bounds["closer"], stream),
+        "Gamma identity": lambda n: identity.draw(np.empty(n), stream),
+    }
+    cost = {name: seconds_per_draw(way, 500_000, repeats) for name, way in ways.items()}
+    print("f0: " + ", ".join(f"{name} {1e9 * cost[name]:.1f} ns" for name in ways))
 
 
 def _bkw_tree(repeats):

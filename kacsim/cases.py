@@ -5,10 +5,17 @@ import math
 import shlex
 from dataclasses import dataclass
 
-from kacsim import checks
+from kacsim import checks, checks_techniques
 from kacsim.checks import BREATHING, MAX_NODES, RATE
 
 _TREE = {"oversampling": "m", "onset": "from", "max_nodes": "budget"}
+_GAS = {
+    "density": "n",
+    "temperature": "temp",
+    "drift": "drift",
+    "half_width": "box",
+    "step": "dt",
+}
 _TRAP = {
     "initial": "",
     "breathing": "eps",
@@ -49,6 +56,16 @@ SAMPLERS = {
         "coupling": "coupling",
     },
     "bkw_moment": {"time": "t", **_TREE},
+    "inverse_transform": {"law": "", "n_table": "table"},
+    "inversion": {"law": "", "rate": "rate"},
+    "rejection": {"law": "", "envelope": ""},
+    "identity": {},
+    "injection": _GAS,
+    "outer_gas": _GAS,
+    "weighted_particles": {"n_representatives": "n", "temperature": "temp", "drift": "drift"},
+    "sphere_lattice": {"dimension": "d", "edge": "m"},
+    "sphere_points": {"generator": "", "dimension": "d", "n_points": "n"},
+    "area": {"exponent": "power", "n_points": "n"},
 }
 # Parameters that are lists: a case of the Boltzmann paper holds a grid of probes.
 LISTS = {
@@ -67,47 +84,18 @@ LISTS = {
         "bkw_moment",
     )
 }
-# What each sampler draws, and what each parameter means: the help of the command line.
-DRAWS = {
-    "kac": "v_1 at a time, by one algorithm of the Kac paper",
-    "kac_equilibrium": "v_1 at equilibrium, epsilon-perfect, with coupling times",
-    "kac_corners": "the distances of the corners before they meet",
-    "kac_probe": "estimates of f(v, t) of the Kac equation",
-    "bkw": "estimates of f(c; t), Algorithm 2",
-    "bkw_fraction": "estimates of a high-energy fraction, Algorithm 3",
-    "bkw_tree": "trees of Algorithm 1 with their branches",
-    "bkw_literal": "estimates of f(c; t) by plain recursion in vectors",
-    "bkw_moment": "estimates of f(c; t)/M at velocities drawn from M",
-    "extinction": "estimates of eq. (20), Algorithm 4",
-    "trap": "estimates of f(r; c; t) in the trap, Algorithms 5 and 6",
-    "trap_fraction": "estimates of the fraction beyond a radius, Algorithm 7",
-    "trap_energy": "estimates of the mechanical energy beyond a radius",
-    "trap_literal": "estimates in the trap by plain recursion in vectors",
-}
-MEANINGS = {
-    "algorithm": ", ".join(checks.ALGORITHMS),
-    "engine": "ancestral (default) or forward",
-    "n_particles": "number of particles; inf for the ancestral poisson",
-    "time": "time t of the Kac paper; of trees in mean collision times, of the trap in 1 / omega",
-    "time_step": "time step of the algorithms of Nanbu and of Nanbu and Babovsky",
-    "collision_rate": "collisions of one particle per time, sqrt(pi)/2 in the paper",
-    "keep_above": "keep the first values of |v_1| above this",
-    "tolerance": "epsilon of the perfect sampler",
-    "energy": "energy of all particles, 3 N / 2 by default",
-    "speed": "speeds of the probes, in RMS velocities per axis",
-    "threshold": "thresholds, in RMS velocities per axis",
-    "oversampling": "mean number of sub-estimates that replace each one",
-    "onset": "collisions later than this time are oversampled",
-    "max_nodes": "budget of nodes of one tree",
-    "initial": "state at the start",
-    "majorant": "raised collision frequencies over alpha f0",
-    "radius": "radii of the probes, in c_eq / omega",
-    "breathing": "amplitude eps of the breathing state",
-    "start_phase": "phase phi0 of the breathing state",
-    "coupling": "n kappa omega^2 / c_eq^3",
-    "majorant_factor": "factor on the raised collision frequency",
-    "spread": "width of the law of c* over that of the breathing state",
-    "anisotropy": "departure of the law of u' from the isotropic one",
+PROBES = tuple(LISTS)  # samplers at grids of probes
+LISTS |= {
+    name: {"n_table", "drift", "half_width", "dimension", "edge", "n_points"} & set(SAMPLERS[name])
+    for name in (
+        "inverse_transform",
+        "injection",
+        "outer_gas",
+        "weighted_particles",
+        "sphere_lattice",
+        "sphere_points",
+        "area",
+    )
 }
 DEFAULTS = {
     "time_step": None,
@@ -137,6 +125,14 @@ FAMILY_SOURCES = {
         "boltzmann/trap.py",
         "boltzmann/literal.py",
     ),
+    "techniques": (
+        "techniques/sampling.py",
+        "techniques/model.py",
+        "techniques/exact.py",
+        "techniques/flux.py",
+        "checks_techniques.py",
+        "kac/model.py",
+    ),
 }
 ALGORITHM_FILES = {
     "nanbu_sequential": "kac/nanbu.py",
@@ -160,6 +156,16 @@ SAMPLER_FILES = {
     "trap_energy": "boltzmann/trap_tree.py",
     "trap_literal": "boltzmann/literal_trap.py",
     "bkw_moment": "boltzmann/bkw_tree.py",
+    "inverse_transform": "techniques/inverse_transform.py",
+    "inversion": "techniques/inverse_transform.py",
+    "rejection": "techniques/rejection.py",
+    "identity": "techniques/identity.py",
+    "injection": "techniques/injection.py",
+    "outer_gas": "techniques/injection.py",
+    "weighted_particles": "techniques/particles.py",
+    "sphere_lattice": "techniques/integration.py",
+    "sphere_points": "techniques/integration.py",
+    "area": "techniques/integration.py",
 }
 # Measured: a collision, or a node of a tree, with all that belongs to it.
 WORK_SECONDS = 3e-8
@@ -215,7 +221,9 @@ class Case:
         draws = float(self.n_draws * self.n_replicates)
         if self.sampler == "kac_equilibrium":
             work = 0.4 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
-        elif self.sampler in LISTS:
+        elif self.family == "techniques":
+            work = max(p.get("n_points", [1])) * sum(p.get("dimension", [6]))
+        elif self.sampler in PROBES:
             many = p.get("oversampling", 1.0)
             growth = 2.0 * (max(many) if isinstance(many, (list, tuple)) else many) - 1.0
             growth *= 0.5 if self.sampler.startswith("trap") else 1.0
@@ -228,7 +236,8 @@ class Case:
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
-        check = getattr(checks, self.sampler)
+        home = checks if hasattr(checks, self.sampler) else checks_techniques
+        check = getattr(home, self.sampler)
         return [*check(**self.parameters), *checks.amount(**size)]
 
     @property

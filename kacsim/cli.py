@@ -4,7 +4,7 @@ import argparse
 import math
 import sys
 
-from kacsim import cases, commands, plan
+from kacsim import cases, commands, meanings, plan
 from kacsim.checks import BudgetError
 
 USAGE_ERROR = 2
@@ -42,6 +42,7 @@ COMMANDS = {
         "compile kac/bird.py --output bird.txt",
     ),
     "times": ("show where the time of the last run went", "times"),
+    "summary": ("show where the report is and how many verdicts stand", "summary"),
     "benchmark": ("measure the kernels, as ratios in one run", "benchmark"),
 }
 EPILOG = """examples:
@@ -107,10 +108,12 @@ def _parser(words=()):
         estimating.add_parsers(parts["estimate"])
     _add_stages(parts["reduce"], parts["draw"], parts["report"], parts["compile"])
     _add_pages(parts["print"], parts["keep"], parts["kept"])
-    one = parts["times"]
-    one.add_argument("--folder", default=".", help="where benchmarks and logs lie")
-    one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970: later jobs")
-    one.add_argument("--output", metavar="FILE", help="write a page of all jobs instead")
+    parts["times"].add_argument("--folder", default=".", help="where benchmarks and logs lie")
+    parts["times"].add_argument("--output", metavar="FILE", help="write a page of all jobs instead")
+    parts["summary"].add_argument("--report", default="results/report/report.html", metavar="FILE")
+    parts["summary"].add_argument("--datasets", default="results/datasets", metavar="FOLDER")
+    for one in (parts["times"], parts["summary"]):
+        one.add_argument("--since", type=_float, default=0.0, help="seconds since 1970")
     parts["benchmark"].add_argument("--repeats", type=int, default=5, help="runs; medians count")
     return parser
 
@@ -155,7 +158,7 @@ def _add_pages(printing, keeping, asking):
 def _add_sample(parent):
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
     for sampler, names in cases.SAMPLERS.items():
-        text = cases.DRAWS[sampler]
+        text = meanings.DRAWS[sampler]
         one = samplers.add_parser(sampler, help=text, description=f"Draw {text}.")
         for name in names:
             engine = name == "engine"  # of all others the case fills in the default
@@ -165,7 +168,7 @@ def _add_sample(parent):
                 type=_value(name),
                 required=name not in cases.DEFAULTS and not engine,
                 default="ancestral" if engine else None,
-                help=cases.MEANINGS[name],
+                help=meanings.MEANINGS[name],
                 **many,
             )
         one.add_argument("--n-draws", type=_integer, required=True, help="draws of a replicate")
@@ -175,9 +178,9 @@ def _add_sample(parent):
 
 
 def _value(name):
-    if name in ("algorithm", "engine", "initial"):
+    if name in ("algorithm", "engine", "initial", "law", "envelope", "generator"):
         return str
-    if name == "max_nodes":
+    if name in ("max_nodes", "n_table", "dimension", "edge", "n_points", "n_representatives"):
         return _integer
     return _count if name == "n_particles" else _float
 

@@ -61,7 +61,7 @@ def run_sample(arguments):
 def run_sample_all(requests):
     """Draw cases one after the other; all are checked before the first is drawn."""
     chosen = [_case_of(arguments) for arguments in requests]
-    from kacsim import progress, sampling, store, times
+    from kacsim import progress, provenance, sampling, store, times
 
     for arguments in requests:
         store.check_writable(arguments.output)
@@ -72,8 +72,12 @@ def run_sample_all(requests):
         variables = sampling.run(case, line)
         line.end()
         print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
-        title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
-        store.write(variables, arguments.output, title=title, settings=case.settings())
+        about = {
+            "title": f"{case.n_replicates} x {case.n_draws} draws of {case.id}",
+            "settings": case.settings(),
+            "code": provenance.source_hash(*case.sources()),
+        }
+        store.write(variables, arguments.output, **about)
     return 0
 
 
@@ -106,15 +110,19 @@ def run_reduce(arguments):
         raise plan.PlanError(
             f"--settings = {arguments.settings!r}: is not JSON: {error}"
         ) from error
-    from kacsim import items, store
+    from kacsim import items, provenance, store
 
     module = items.load(arguments.item)
     wanted = module.cases(settings)
     folder = Path(arguments.samples)
     samples = {case.id: store.read_sample(folder / f"{case.id}.nc", case) for case in wanted}
     dataset = items.reduced(arguments.item, samples, settings)
-    title = module.__doc__.splitlines()[0]
-    store.write(dataset, arguments.output, title=title, settings=settings)
+    about = {
+        "title": module.__doc__.splitlines()[0],
+        "settings": settings,
+        "code": provenance.source_hash(*plan.reduce_sources(arguments.item)),
+    }
+    store.write(dataset.assign_attrs(item=arguments.item), arguments.output, **about)
 
 
 def run_draw(arguments):
@@ -122,7 +130,7 @@ def run_draw(arguments):
     _known_item(arguments.item)
     from kacsim import csv_table, items, plotting, store
 
-    dataset = store.read(arguments.dataset)
+    dataset = store.read_dataset(arguments.dataset, arguments.item)
     figure = items.load(arguments.item).draw(dataset)
     for path in arguments.output:
         if path.endswith(".csv"):
@@ -180,6 +188,21 @@ def run_times(arguments):
         times.write(arguments.output, arguments.folder)
     else:
         print(times.table(arguments.folder, arguments.since))
+
+
+def run_summary(arguments):
+    """Print where the report is and how many verdicts stand, if it is newer than a time."""
+    report = Path(arguments.report)
+    if not report.exists() or report.stat().st_mtime < arguments.since:
+        return
+    from kacsim import store
+
+    words = []
+    for path in sorted(Path(arguments.datasets).glob("*_numbers.nc")):
+        words += list(store.read(path)["verdict"].values)
+    counts = {word: words.count(word) for word in dict.fromkeys(words)}
+    shown = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
+    print(f"{report}: of {len(words)} published results {shown}")
 
 
 def run_benchmark(arguments):

@@ -39,14 +39,16 @@ def reduce_sources(name):
     used = (name, *getattr(items.load(name), "USES", ()))
     exact = ("kac/exact.py", "kac/moments.py", "kac/ancestors.py")
     exact += ("boltzmann/bkw.py", "boltzmann/extinction.py", "boltzmann/trap.py")
+    exact += ("techniques/exact.py", "techniques/flux.py", "techniques/inverse_transform.py")
     own = tuple(f"items/{one}.py" for one in used)
     return (*own, *_shared_items(), *exact, "statistics", "store.py")
 
 
 def draw_sources(name):
     """Return the package's files that an item's figure depends on."""
+    exact = "kac/exact.py", "boltzmann/bkw.py", "techniques/exact.py", "techniques/flux.py"
     own = f"items/{name}.py", *_shared_items(), "plotting.py", "csv_table.py"
-    return (*own, "kac/exact.py", "boltzmann/bkw.py")
+    return (*own, *exact)
 
 
 def read_config(*paths):
@@ -105,7 +107,7 @@ class Plan:
         self.config, wrong = complete(config, SCHEMA)
         self._refuse(wrong)
         self.settings = {name: self._settings_of(name) for name in items.NAMES}
-        self._refuse(self._own_problems())
+        self._refuse([problem for name in items.NAMES for problem in self._own_problems(name)])
         self.cases_of = {}
         problems = []
         for name in items.NAMES:
@@ -126,14 +128,6 @@ class Plan:
             settings["items"] = {used: self._settings_of(used) for used in uses}
         return settings
 
-    def _own_problems(self):
-        """Return what the items themselves find wrong with their settings."""
-        found = []
-        for name in items.NAMES:
-            check = getattr(items.load(name), "problems", lambda settings: [])
-            found += [((name, key), *rest) for key, *rest in check(self.settings[name])]
-        return found
-
     def _case_problems(self, name):
         """Return (path, value, sentence) of each wrong case of an item, traced to its key."""
         found = {}
@@ -142,6 +136,12 @@ class Plan:
                 path = self._key_of(name, problem) or (name, problem.name)
                 found[(path, repr(problem.value))] = (path, problem.value, problem.allowed)
         return list(found.values())
+
+    def _own_problems(self, name):
+        """Return what an item itself finds wrong: settings that do not go together."""
+        check = getattr(items.load(name), "problems", lambda settings: ())
+        found = check(self.settings[name])
+        return [((name, key), self.config[name][key], sentence) for key, sentence in found]
 
     def _edge_problems(self, name):
         """Return the thresholds of an item that no fine bin begins at."""

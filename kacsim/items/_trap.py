@@ -9,9 +9,9 @@ STATE = ("breathing", "start_phase", "coupling", "max_nodes")
 
 
 def problems(settings):
-    """Return (key, value, sentence) if the larger run has times that the figure has not."""
+    """Return (key, sentence) if the larger run has times that the figure has not."""
     if set(settings["large_turn"]) - set(settings["turn"]):
-        return [("large_turn", settings["large_turn"], f"must be among turn, {settings['turn']}")]
+        return [("large_turn", f"must be among turn, {settings['turn']}")]
     return []
 
 

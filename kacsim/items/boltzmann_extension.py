@@ -10,9 +10,9 @@ SAMPLERS = {"trap": "density_radius", "trap_fraction": "fraction_radius"}
 
 
 def problems(settings):
-    """Return (key, value, sentence) of each setting that does not fit another."""
+    """Return (key, sentence) of each setting that does not fit another."""
     if len(settings["n_draws"]) != len(settings["turn"]):
-        return [("n_draws", settings["n_draws"], "must have one number per value of turn")]
+        return [("n_draws", "must have one number per value of turn")]
     return []
 
 

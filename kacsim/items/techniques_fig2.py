@@ -1,0 +1,120 @@
+"""Fig. 11.2 of the chapter: rejection under a constant and a closer envelope, and its cost."""
+
+from kacsim.checks_techniques import SUPPORT
+from kacsim.items import _techniques
+from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+
+METHODS = (("kac_initial", "constant"), ("kac_initial", "closer"), ("triangle", "constant"))
+LABELS = ("$f_0$, constant", "$f_0$, closer", "triangle, constant")
+
+
+def _cases(settings):
+    found = [
+        _techniques.case(settings, "rejection", law=law, envelope=name) for law, name in METHODS
+    ]
+    table = _techniques.case(
+        settings, "inverse_transform", law="kac_initial", n_table=list(settings["n_table"])
+    )
+    return found, table
+
+
+def cases(settings):
+    """Return draws by rejection, and those through tables that they are compared with."""
+    found, table = _cases(settings)
+    return [*found, table]
+
+
+def reduce(samples, settings):
+    """Return uniforms per accepted value with errors and predictions, and recorded trials."""
+    found, table = _cases(settings)
+    n = settings["n_draws"] * settings["n_replicates"]
+    drawn = [samples[case.id] for case in found]
+    means = [estimate.of_replicates(sample["uniforms"].values) for sample in drawn]
+    predicted = [2.0 * techniques_exact.envelope_area(*method) for method in METHODS]
+    distances = [_techniques.distance(sample["counts"].values.sum(axis=0)) for sample in drawn]
+    through = estimate.of_replicates(samples[table.id]["uniforms"].values.ravel())
+    described, one = store.described, ("way",)
+    return xr.Dataset(
+        {
+            "uniforms": described([m.value for m in means], one, "uniforms per accepted value"),
+            "uniforms_error": described([m.standard_error for m in means], one, "standard error"),
+            "predicted": described(predicted, one, "twice the area under the envelope"),
+            "distance": described(distances, one, "Kolmogorov-Smirnov distance from the law"),
+            "p_value": described(
+                [_techniques.p_of_distance(d, n) for d in distances], one, "its p-value"
+            ),
+            "table_uniforms": described(through.value, (), "uniforms per value through a table"),
+            "point": described(
+                np.stack([sample["point"].values for sample in drawn]),
+                ("way", "trial", "part"),
+                "value, height and acceptance of trials",
+            ),
+        },
+        coords={"way": [" ".join(method) for method in METHODS]},
+    )
+
+
+def claims(dataset):
+    """Test the cost at half the area, and that of a closer envelope against a table."""
+    half, closer = dataset.isel(way=2), dataset.isel(way=1)
+    return [
+        verdict.Finding(
+            "techniques_fig2_half",
+            float(half.uniforms),
+            float(half.uniforms_error),
+            evidence="Density 2v on [0, 1] under the constant 2.",
+        ),
+        verdict.Finding(
+            "techniques_fig2_table",
+            float(closer.uniforms) - float(dataset.table_uniforms),
+            float(closer.uniforms_error),
+            evidence=f"f0 of the Kac paper: {float(closer.uniforms):.3f} uniforms under the closer "
+            f"envelope, {float(dataset.table_uniforms):g} through a table.",
+        ),
+    ]
+
+
+def draw(dataset):
+    """Draw accepted and rejected points under each envelope, and uniforms per accepted value."""
+    figure, axes = plotting.panels(1, 3)
+    grid = np.linspace(*SUPPORT["kac_initial"], 401)
+    envelopes = (
+        np.full_like(grid, techniques_exact.TOPS["kac_initial"]),
+        techniques_exact.closer_envelope(grid),
+    )
+    for k, axis in enumerate(axes[:2]):
+        v, height, accepted = dataset.point.values[k].T
+        inside = accepted > 0.5
+        axis.plot(
+            v[~inside], height[~inside], "x", ms=3, color=plotting.COLOURS[1], label="rejected"
+        )
+        axis.plot(v[inside], height[inside], "o", ms=2, color=plotting.COLOURS[0], label="accepted")
+        axis.plot(grid, techniques_exact.DENSITIES["kac_initial"](grid), color="black", lw=1)
+        axis.plot(grid, envelopes[k], color="black", lw=1, ls="--")
+        axis.set_xlim(SUPPORT["kac_initial"])
+        axis.set_title(("constant envelope", "closer envelope")[k])
+        axis.set_xlabel("velocity $v$")
+        axis.set_ylabel("height of the trial point")
+        axis.set_ylim(0.0, 0.62)
+        axis.legend(loc="upper center", ncols=2, frameon=False)
+    place = np.arange(len(METHODS))
+    plotting.points(
+        axes[2], place, dataset.uniforms, dataset.uniforms_error, 0, "measured", line=False
+    )
+    axes[2].plot(
+        place,
+        dataset.predicted,
+        "_",
+        ms=22,
+        color="black",
+        label="predicted, 2 × area",
+    )
+    axes[2].axhline(
+        float(dataset.table_uniforms), color=plotting.COLOURS[2], ls="--", label="through a table"
+    )
+    axes[2].set_xticks(place, LABELS, fontsize=7.5)
+    axes[2].set_xlim(-0.5, len(METHODS) - 0.5)
+    axes[2].set_ylim(0.0, 1.2 * float(dataset.uniforms.max()))
+    axes[2].set_ylabel("uniforms per accepted value")
+    axes[2].legend(loc="upper right", markerscale=0.6)
+    return figure

@@ -1,0 +1,257 @@
+"""Fig. 11.3 of the chapter: injection through the faces of a cuboid, against the gas outside it."""
+
+import math
+
+from kacsim.checks_techniques import FACES
+from kacsim.items import _techniques
+from kacsim.items._lazy import estimate, flux, np, plotting, store, verdict, xr
+
+SOURCES = ("injection", "outer_gas")
+LABELS = ("injected", "gas outside, moved")
+SHOWN = 12  # numbers of particles with a bar
+
+
+def _cases(settings):
+    found = {name: _techniques.gas_case(settings, name) for name in SOURCES}
+    found["weighted_particles"] = _techniques.case(
+        settings,
+        "weighted_particles",
+        n_representatives=settings["n_representatives"],
+        temperature=settings["temperature"],
+        drift=settings["drift"],
+    )
+    return found
+
+
+def cases(settings):
+    """Return particles injected, those that enter from a gas, and a choice of weighted ones."""
+    return list(_cases(settings).values())
+
+
+def _normal(settings, face):
+    """Return the drift along the inward normal of a face."""
+    return (1.0 - 2.0 * (face % 2)) * settings["drift"][face // 2]
+
+
+def _of_source(sample, settings):
+    """Return what one source gives at every face, with errors over the replicates."""
+    faces = range(len(FACES))
+    columns = [estimate.of_replicates(column) for column in _techniques.per_step(sample).T]
+    speed = _techniques.face_means(sample, 0, 1)
+    square = _techniques.face_means(sample, 0, 2)
+    numbers = np.arange(sample["steps"].shape[-1])
+    share = sample["steps"].values / sample["steps"].values.sum(axis=-1, keepdims=True)
+    variance = (share * numbers**2).sum(-1) - (share * numbers).sum(-1) ** 2
+    ratio = [estimate.of_replicates(c) for c in (variance / (share * numbers).sum(-1)).T]
+    edges = sample["speed_edge"].values
+    speeds, steps = (sample[name].values.sum(axis=0) for name in ("speeds", "steps"))
+    means = _techniques.face_rates(settings)
+    poisson = [_poisson(means[face], numbers) for face in faces]
+    p_speed = [
+        _techniques.chi_squared(speeds[face], _techniques.speed_law(settings, edges, face))
+        for face in faces
+    ]
+    p_number = [_techniques.chi_squared(steps[face], poisson[face]) for face in faces]
+    first = {"rate": columns, "speed": speed, "square": square, "fano": ratio}
+    return first, p_speed, p_number, steps / steps.sum(-1, keepdims=True), speeds
+
+
+def _poisson(mean, numbers):
+    """Return Poisson probabilities, the last of all larger numbers (eq. 11.15)."""
+    logs = numbers * math.log(mean) - mean - np.array([math.lgamma(k + 1.0) for k in numbers])
+    shares = np.exp(logs)
+    shares[-1] = max(0.0, 1.0 - shares[:-1].sum())
+    return shares
+
+
+def reduce(samples, settings):
+    """Return rates, moments and laws by face, from both sources, beside the closed forms."""
+    found, faces = _cases(settings), range(len(FACES))
+    results = [_of_source(samples[found[name].id], settings) for name in SOURCES]
+    described, dims = store.described, ("source", "face")
+    texts = {
+        "rate": "particles per step",
+        "speed": "mean normal velocity",
+        "square": "mean squared normal velocity",
+        "fano": "variance over mean of the number per step",
+    }
+    variables = {}
+    for key, text in texts.items():
+        values = [[mean.value for mean in result[0][key]] for result in results]
+        errors = [[mean.standard_error for mean in result[0][key]] for result in results]
+        variables[key] = described(values, dims, text)
+        variables[f"{key}_error"] = described(errors, dims, "standard error")
+    temperature = settings["temperature"]
+    normal = [_normal(settings, face) for face in faces]
+    halves = [flux.half_moments(u, temperature, 2) for u in normal]
+    gas = samples[found["outer_gas"].id]
+    edges = gas["speed_edge"].values
+    weighted = _weighted(samples[found["weighted_particles"].id], settings)
+    first = gas["steps"].values[:, 0, 0] / gas["steps"].values[:, 0].sum(axis=-1)
+    none = estimate.of_replicates(first)
+    many = {
+        "rate_exact": (_techniques.face_rates(settings), "eq. (11.14) with its limits right"),
+        "speed_exact": ([flux.moment(1, u, temperature) for u in normal], "mean under v f(v)"),
+        "speed_unweighted": ([h[1] / h[0] for h in halves], "mean under f(v), v > 0"),
+        "square_exact": ([flux.moment(2, u, temperature) for u in normal], "mean under v f(v)"),
+    }
+    variables |= {key: described(v, ("face",), text) for key, (v, text) in many.items()}
+    variables |= {
+        "p_speed": described([r[1] for r in results], dims, "p-value of the normal velocities"),
+        "p_number": described([r[2] for r in results], dims, "p-value of the numbers per step"),
+        "share": described(
+            np.array([r[3] for r in results]), (*dims, "number"), "steps by number of particles"
+        ),
+        "share_exact": described(
+            [_poisson(m, np.arange(gas["steps"].shape[-1])) for m in many["rate_exact"][0]],
+            ("face", "number"),
+            "eq. (11.15)",
+        ),
+        "speeds": described(np.array([r[4] for r in results]), (*dims, "bin"), "particles by v_n"),
+        "speed_edge": described(edges, ("bin",), "lower edge of the bin"),
+        "kept": described(samples[found["injection"].id]["kept"].values, ("kept", "part"), "first"),
+        "none": described(none.value, (), "share of steps without a particle, first face, gas"),
+        "none_error": described(none.standard_error, (), "standard error"),
+    }
+    variables |= {key: described(v, (), key.replace("_", " ")) for key, v in weighted.items()}
+    return xr.Dataset(variables, coords={"source": list(SOURCES), "face": list(FACES)})
+
+
+def _weighted(sample, settings):
+    """Return the choice among weighted particles: p-value, and mean speeds chosen and expected."""
+    speed = np.maximum(0.0, sample["velocity"].values[:, 0])
+    lengths = sample["weight"].values * speed
+    shares = lengths / lengths.sum()
+    chosen = sample["selected"].values
+    mean = estimate.of_replicates((chosen * speed).sum(axis=-1) / chosen.sum(axis=-1))
+    inward = shares > 0.0
+    return {
+        "weighted_p_value": _techniques.chi_squared(chosen.sum(axis=0)[inward], shares[inward]),
+        "weighted_outward": float(chosen[:, ~inward].sum()),
+        "weighted_speed": mean.value,
+        "weighted_speed_error": mean.standard_error,
+        "weighted_speed_exact": float((shares * speed).sum()),
+    }
+
+
+def claims(dataset):
+    """Test eqs. (11.14) and (11.15) and the weight v of the velocities on the moved gas."""
+    s = dataset.attrs["settings"]
+    here = dataset.sel(source="outer_gas").isel(face=0)
+    rate, (_, width, height) = float(here.rate_exact), s["half_width"]
+    return [
+        verdict.Finding(
+            "techniques_fig3_limits",
+            float(here.rate),
+            float(here.rate_error),
+            printed=rate * width / height,
+            corrected=rate,
+            evidence=f"Through the face at −x, L_y = {width:g}, L_z = {height:g}.",
+        ),
+        verdict.Finding(
+            "techniques_fig3_rate",
+            float(dataset.none),
+            float(dataset.none_error),
+            printed=math.exp(-rate / s["step"]),
+            corrected=math.exp(-rate),
+            evidence=f"Share of steps without a particle, step {s['step']:g}.",
+        ),
+        verdict.Finding("techniques_fig3_variance", float(here.fano), float(here.fano_error)),
+        verdict.Finding(
+            "techniques_fig3_weight",
+            float(here.speed) - float(here.speed_unweighted),
+            float(here.speed_error),
+            evidence=f"Mean normal velocity {float(here.speed):.4f}; {float(here.speed_exact):.4f} "
+            "under v f(v).",
+        ),
+    ]
+
+
+def draw(dataset):
+    """Draw the cuboid with injected particles, rates by face, numbers and normal velocities."""
+    s = dataset.attrs["settings"]
+    figure, axes = plotting.panels(2, 2)
+    _geometry(axes[0], dataset, s)
+    place = np.arange(len(FACES))
+    for k, source in enumerate(SOURCES):
+        here = dataset.sel(source=source)
+        shift = 0.16 * (2 * k - 1)
+        relative, error = here.rate / dataset.rate_exact, here.rate_error / dataset.rate_exact
+        plotting.points(axes[1], place + shift, relative, error, k, LABELS[k], line=False)
+        face = here.isel(face=0)
+        number = np.arange(SHOWN)
+        axes[2].plot(
+            number + shift,
+            face.share.values[:SHOWN],
+            plotting.MARKERS[k],
+            ms=4,
+            color=plotting.COLOURS[k],
+            label=LABELS[k],
+        )
+        edges = dataset.speed_edge.values
+        height = face.speeds.values[:-1] / face.speeds.values.sum() / np.diff(edges)
+        plotting.bars(axes[3], edges, height, k, LABELS[k], fill=k == 0)
+    axes[1].axhline(1.0, color="black", lw=1, label="eq. (11.14), limits right")
+    axes[1].set_xticks(place, [face.replace("-", "−") for face in FACES])
+    axes[1].set_xlabel("face")
+    axes[1].set_ylabel("particles per step / exact")
+    plotting.legends_above([axes[1]], share=0.35)
+    axes[2].plot(
+        np.arange(SHOWN),
+        dataset.share_exact.values[0, :SHOWN],
+        "_",
+        ms=14,
+        color="black",
+        label="Poisson",
+    )
+    axes[2].set_xlabel("particles in one step, face −x")
+    axes[2].set_ylabel("share of the steps")
+    _speeds(axes[3], dataset, s)
+    for axis in axes[2:]:
+        axis.legend()
+    return figure
+
+
+def _speeds(axis, dataset, s):
+    grid = np.linspace(0.0, float(dataset.speed_edge[-1]) * 0.75, 200)
+    u, temperature = s["drift"][0], s["temperature"]
+    bell = np.exp(-((grid - u) ** 2) / (2.0 * temperature)) / np.sqrt(2.0 * np.pi * temperature)
+    halves = flux.half_moments(u, temperature, 1)
+    axis.plot(grid, grid * bell / halves[1], color="black", lw=1, label="$v f(v)$")
+    axis.plot(grid, bell / halves[0], color="black", lw=1, ls="--", label="$f(v)$, $v$ > 0")
+    axis.set_xlim(0.0, grid[-1])
+    axis.set_xlabel("normal velocity $v_n$, face −x")
+    axis.set_ylabel("density")
+
+
+def _geometry(axis, dataset, s):
+    """Draw the cuboid seen along z, with the first injected particles as arrows."""
+    width, height = s["half_width"][:2]
+    axis.plot(
+        [-width, width, width, -width, -width],
+        [-height, -height, height, height, -height],
+        color="black",
+        lw=1,
+    )
+    kept = dataset.kept.values
+    kept = kept[kept[:, 0] < 4][:80]
+    for k in range(2):
+        here = kept[(kept[:, 0].astype(int) // 2) == k]
+        axis.quiver(
+            here[:, 1],
+            here[:, 2],
+            here[:, 4],
+            here[:, 5],
+            color=plotting.COLOURS[k],
+            angles="xy",
+            scale_units="xy",
+            scale=6.0,
+            width=0.004,
+            label=("faces −x, +x", "faces −y, +y")[k],
+        )
+    axis.set_aspect("equal")
+    axis.set_xlim(-1.7 * max(width, height), 1.7 * max(width, height))
+    axis.set_ylim(-1.25 * height, 1.75 * height)
+    axis.set_xlabel("position $x$")
+    axis.set_ylabel("position $y$")
+    axis.legend(loc="upper center", ncols=2, frameon=False)

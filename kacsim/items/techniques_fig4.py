@@ -1,0 +1,248 @@
+"""Fig. 11.4 of the chapter: volume of the 4-sphere by lattice and Monte Carlo, and d = 2 to 8."""
+
+import math
+
+from kacsim.items import _spheres
+from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.items._spheres import GENERATORS, MANY
+
+LABELS = ("Monte Carlo, good", "numbers run out", "congruential")
+MANY_LABELS = ("lattice", "Monte Carlo", "Sobol, scrambled")
+
+
+problems = _spheres.problems
+
+
+def cases(settings):
+    """Return lattices up to the largest edge, and points of every generator."""
+    return list(_spheres.cases(settings).values())
+
+
+def reduce(samples, settings):
+    """Return fractional errors against N, the powers of N with errors, and who is ahead."""
+    found = {name: samples[case.id] for name, case in _spheres.cases(settings).items()}
+    shown, dimensions = settings["shown_dimension"], settings["dimension"]
+    first = settings["fit_from_edge"] ** shown
+    error, edge = _spheres.lattice_errors(found["lattice"], shown)
+    rows, fits = [], [_spheres.fit_lattice(found["lattice"], shown, settings)]
+    for name in GENERATORS:
+        errors, n = _spheres.errors_of(found[name], shown)
+        rows.append(_spheres.rms(errors))
+        fits.append(_spheres.fit(errors, n, first))
+    slopes, many = np.empty((2, len(MANY), len(dimensions))), []
+    level = np.empty(len(dimensions))
+    for i, d in enumerate(dimensions):
+        lattice, level[i] = _spheres.fit_lattice(found["lattice"], d, settings)
+        parts = [lattice]
+        for name in MANY[1:]:
+            errors, powers = _spheres.errors_of(found[name], d)
+            parts.append(_spheres.fit(errors, powers, powers[0])[0])
+            many.append(_spheres.rms(errors))
+        slopes[:, :, i] = np.array([[p.value, p.standard_error] for p in parts]).T
+    one = [techniques_exact.point_error(d) for d in dimensions]
+    described, at = store.described, ("generator", "edge")
+    both = np.array(dimensions, dtype=float)
+    cross = [_spheres.crossing(a, level[i], slopes[0, 0, i]) for i, a in enumerate(one)]
+    columns = np.array(many).reshape(len(dimensions), 2, 2, -1)
+    lattices = np.stack([_spheres.lattice_errors(found["lattice"], d)[0] for d in dimensions])
+    ahead = _spheres.ahead(found, error, edge, shown, settings)
+    variables = {
+        "lattice_error": described(np.abs(error), ("edge",), "fractional error of the lattice"),
+        "rms": described([r[0] for r in rows], at, "root mean square fractional error"),
+        "rms_error": described([r[1] for r in rows], at, "standard error"),
+        "shown_slope": described([f[0].value for f in fits], ("line",), "power of N"),
+        "shown_slope_error": described([f[0].standard_error for f in fits], ("line",), "its error"),
+        "slope": described(slopes[0], ("way", "dimension"), "power of N"),
+        "slope_error": described(slopes[1], ("way", "dimension"), "standard error"),
+        "lattice_level": described(level, ("dimension",), "lattice's error extrapolated to N = 1"),
+        "point_error": described(one, ("dimension",), "exact error of one random point"),
+        "lattice_exponent": described(
+            np.where(both == 2.0, -0.75, -2.0 / both),
+            ("dimension",),
+            "power predicted of a lattice",
+        ),
+        "sobol_exponent": described(
+            -0.5 - 0.5 / both, ("dimension",), "power by counting cells that the surface cuts"
+        ),
+        "crossing": described(cross, ("dimension",), "N from which Monte Carlo is ahead"),
+        "many_lattice": described(np.abs(lattices), ("dimension", "edge"), "fractional error"),
+        "many_rms": described(
+            columns[:, :, 0], ("dimension", "points_way", "points"), "rms fractional error"
+        ),
+        "many_rms_error": described(
+            columns[:, :, 1], ("dimension", "points_way", "points"), "standard error"
+        ),
+        "ahead": described(ahead.value, (), "log10 of rms Monte Carlo over rms lattice, top half"),
+        "ahead_error": described(ahead.standard_error, (), "standard error"),
+    }
+    coords = {
+        "edge": ("edge", edge),
+        "n_points": ("edge", edge**shown),
+        "generator": list(GENERATORS),
+        "line": ["lattice", *GENERATORS],
+        "way": list(MANY),
+        "points_way": list(MANY[1:]),
+        "dimension": dimensions,
+        "points": found["random"]["points"].values,
+    }
+    return xr.Dataset(variables, coords=coords)
+
+
+def claims(dataset):
+    """Test the powers of N, the bad generator, and where Monte Carlo gets ahead."""
+    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
+    last = dataset.isel(edge=-1)
+    good, bad, full = (last.sel(generator=name) for name in GENERATORS)
+    n = f"{float(last.n_points):.0e}"
+    kept = math.hypot(float(bad.rms_error / bad.rms), float(good.rms_error / good.rms))
+    found = [
+        verdict.Finding("techniques_fig4_lattice", value[0], error[0]),
+        verdict.Finding("techniques_fig4_random", value[1], error[1]),
+        verdict.Finding(
+            "techniques_fig4_difference", value[0] - value[1], math.hypot(error[0], error[1])
+        ),
+        verdict.Finding(
+            "techniques_fig4_bad",
+            math.log10(float(bad.rms / good.rms)),
+            kept / math.log(10.0),
+            evidence=f"N = {n}: error {float(bad.rms):.1e}, of the good generator "
+            f"{float(good.rms):.1e}, of a congruential one that runs out {float(full.rms):.1e}.",
+        ),
+        verdict.Finding(
+            "techniques_fig4_as_well", float(dataset.ahead), float(dataset.ahead_error)
+        ),
+    ]
+    for d in dataset.dimension.values:
+        here = dataset.sel(dimension=d, way="lattice")
+        power = float(here.slope), float(here.slope_error)
+        if d == 2:
+            fixed = {"printed": -2.0 / d, "corrected": float(here.lattice_exponent)}
+            found.append(verdict.Finding("techniques_fig4_circle", *power, **fixed))
+        elif d > 2:
+            found.append(
+                verdict.Finding(f"techniques_fig4_power_{d}", *power, printed=-2.0 / float(d))
+            )
+    largest = dataset.isel(dimension=-1)
+    gap = largest.slope.sel(way="lattice") - largest.slope.sel(way="random")
+    both = [float(largest.slope_error.sel(way=name)) for name in MANY[:2]]
+    found.append(
+        verdict.Finding(
+            "techniques_fig4_higher",
+            float(gap),
+            math.hypot(*both),
+            evidence=f"d = {int(largest.dimension)}; Monte Carlo is ahead from N = "
+            f"{float(largest.crossing):.1e} on.",
+        )
+    )
+    return found
+
+
+def draw(dataset):
+    """Draw errors against N in 4 and in the most dimensions, powers of N, and who is ahead."""
+    figure, axes = plotting.panels(2, 2, height=3.0, width=8.0)
+    _shown(axes[0], dataset)
+    _many(axes[1], dataset.isel(dimension=-1))
+    _powers(axes[2], dataset)
+    _ratios(axes[3], dataset)
+    for axis in axes[:2]:
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_xlabel("number of points $N$")
+        axis.set_ylabel("fractional error")
+        axis.legend(loc="lower left", frameon=False)
+    axes[0].set_ylim(1e-9, 10.0)
+    for axis in axes[2:]:
+        axis.set_xlabel("dimension $d$")
+    return figure
+
+
+def _shown(axis, dataset):
+    """Draw the errors of the published figure."""
+    dimension = dataset.attrs["settings"]["shown_dimension"]
+    style = {"ms": 2.5, "lw": 0}
+    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
+
+    def named(name, k):
+        power = plotting.pm(estimate.Mean(float(value[k]), float(error[k])))
+        return f"{name}: {power}".replace("-", "−")
+
+    n, colour = dataset.n_points, plotting.COLOURS[0]
+    axis.plot(n, dataset.lattice_error, "o", color=colour, label=named("lattice", 0), **style)
+    for k, name in enumerate(GENERATORS):
+        here = dataset.sel(generator=name)
+        axis.errorbar(
+            n,
+            here.rms,
+            here.rms_error,
+            fmt=plotting.MARKERS[k + 1],
+            color=plotting.COLOURS[k + 1],
+            elinewidth=0.6,
+            label=named(LABELS[k], 1) if k == 0 else LABELS[k],
+            **style,
+        )
+    one = techniques_exact.point_error(dimension)
+    axis.plot(n, one * n**-0.5, color="black", lw=1, label="exact, $N^{-1/2}$")
+    axis.set_title(f"$d$ = {dimension}; fitted powers of $N$")
+
+
+def _powers(axis, dataset):
+    """Draw the powers of N against the dimension, with predictions."""
+    d = dataset.dimension.values
+    for k, name in enumerate(MANY):
+        here = dataset.sel(way=name)
+        plotting.points(axis, d, here.slope, here.slope_error, k, MANY_LABELS[k], line=False)
+    for variable, label, dash in (
+        ("lattice_exponent", "$-2/d$ ($-3/4$ at $d$ = 2)", "-"),
+        ("sobol_exponent", "$-1/2-1/(2d)$", "--"),
+    ):
+        axis.plot(d, dataset[variable], color="0.3", ls=dash, lw=1, label=label)
+    axis.axhline(-0.5, color="black", ls=":", lw=1.2, label="$-1/2$")
+    axis.set_ylim(-0.95, 0.12)
+    axis.set_ylabel("power of $N$")
+    axis.legend(ncols=2, loc="upper left", frameon=False)
+
+
+def _ratios(axis, dataset):
+    """Draw the exact error of Monte Carlo over the fitted one of the lattice."""
+    for k, n in enumerate((1e4, 1e8, 1e12)):
+        lattice = dataset.lattice_level * n ** dataset.slope.sel(way="lattice")
+        axis.plot(
+            dataset.dimension,
+            dataset.point_error * n**-0.5 / lattice,
+            plotting.MARKERS[k] + "-",
+            ms=4,
+            lw=0.8,
+            color=plotting.COLOURS[k],
+            label=f"$N$ = {plotting.power_of_ten(n)}",
+        )
+    axis.axhline(1.0, color="black", lw=1)
+    axis.set_yscale("log")
+    axis.set_ylabel("error, Monte Carlo / lattice (fit)")
+    axis.legend(title="above 1 the lattice is ahead", frameon=False)
+
+
+def _many(axis, here):
+    """Draw the errors in the most dimensions."""
+    d = int(here.dimension)
+    axis.plot(
+        here.edge.values**d,
+        here.many_lattice,
+        "o",
+        ms=2.5,
+        color=plotting.COLOURS[0],
+        label=MANY_LABELS[0],
+    )
+    for k, name in enumerate(MANY[1:]):
+        one = here.sel(points_way=name)
+        plotting.points(
+            axis,
+            one.points,
+            one.many_rms,
+            one.many_rms_error,
+            k + 1,
+            MANY_LABELS[k + 1],
+            line=False,
+        )
+    grid = np.array([1.0, float(here.edge[-1]) ** d])
+    axis.plot(grid, float(here.point_error) * grid**-0.5, color="black", lw=1, label="$N^{-1/2}$")
+    axis.set_title(f"$d$ = {d}")

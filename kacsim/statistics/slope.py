@@ -1,0 +1,45 @@
+"""The power of N that squared errors fall with, and its standard error."""
+
+import math
+
+import numpy as np
+
+from kacsim.statistics.estimate import Mean
+
+ITERATIONS = 200
+
+
+def of_squares(n, squares, groups):
+    """Fit E e**2 = exp(a + 2 b log n); return b with a standard error that needs no noise model.
+
+    A generalized linear model with logarithmic link and constant relative spread: squares near
+    zero, which a fit of log |e| would take for large deviations, weigh little. The error is the
+    sandwich over groups, so that squares may depend on each other within a group.
+
+    Parameters
+    ----------
+    n : float64[k], numbers of points
+    squares : float64[k], squared errors
+    groups : int[k], group of each square; groups are independent
+
+    Returns
+    -------
+    (Mean, float), the slope b, and the root of exp(a): the error extrapolated to n = 1
+    """
+    n, squares, groups = (np.asarray(x) for x in (n, squares, groups))
+    x = np.log(n)
+    centre = x.mean()
+    design = np.stack([np.ones(x.size), x - centre], axis=1)
+    inverse = np.linalg.inv(design.T @ design)
+    known = np.maximum(squares, 1e-6 * squares.mean())
+    beta = inverse @ design.T @ np.log(known)
+    for _ in range(ITERATIONS):
+        relative = squares * np.exp(-design @ beta) - 1.0
+        beta = beta + inverse @ design.T @ np.clip(relative, -1.0, 5.0)
+    relative = squares * np.exp(-design @ beta) - 1.0
+    labels = np.unique(groups)
+    scores = np.stack([(relative[:, None] * design)[groups == g].sum(axis=0) for g in labels])
+    many = labels.size
+    covariance = inverse @ (scores.T @ scores) @ inverse * many / max(1, many - 1)
+    slope = Mean(float(beta[1]) / 2.0, math.sqrt(covariance[1, 1]) / 2.0)
+    return slope, float(math.exp((beta[0] - beta[1] * centre) / 2.0))

@@ -37,7 +37,7 @@ CONFIG_FILES = sorted(
     workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml"
 )
 
-if workflow.is_main_process and not workflow.dryrun:
+if workflow.is_main_process and not workflow.output_settings.dryrun:
     console.quieten(
         logger, [str(file) for file in CONFIG_FILES[1:]], ("all", *items.NAMES)
     )

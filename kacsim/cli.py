@@ -36,6 +36,9 @@ COMMANDS = {
         "write the report from datasets and figures",
         "report --items kac_fig4 kac_fig5 --output report.html",
     ),
+    "print": ("print the report to PDF, by Chromium", "print"),
+    "keep": ("keep the report of a full run in reports/latest", "keep"),
+    "kept": ("say which kernels have changed since the kept report", "kept"),
     "compile": (
         "compile a module's kernels into the kernel cache",
         "compile kac/bird.py --output bird.txt",
@@ -117,7 +120,9 @@ def _parser(words=()):
 
         estimating.add_parsers(parts["estimate"])
     _add_stages(parts["reduce"], parts["draw"], parts["report"], parts["compile"])
+    _add_pages(parts["print"], parts["keep"], parts["kept"])
     parts["times"].add_argument("--folder", default=".", help="where benchmarks and logs lie")
+    parts["times"].add_argument("--output", metavar="FILE", help="write a page of all jobs instead")
     parts["summary"].add_argument("--report", default="results/report/report.html", metavar="FILE")
     parts["summary"].add_argument("--datasets", default="results/datasets", metavar="FOLDER")
     for one in (parts["times"], parts["summary"]):
@@ -144,13 +149,23 @@ def _add_stages(reducing, drawing, reporting, compiling):
     reducing.add_argument("--output", required=True)
     drawing.add_argument("item")
     drawing.add_argument("--dataset", required=True)
-    drawing.add_argument("--output", required=True, nargs="+", help="files ending in png, svg, pdf")
+    drawing.add_argument("--output", required=True, nargs="+", help="png, svg, pdf or csv files")
     reporting.add_argument("--datasets", default="results/datasets", metavar="FOLDER")
     reporting.add_argument("--figures", default="results/figures", metavar="FOLDER")
     reporting.add_argument("--items", nargs="+", required=True)
     reporting.add_argument("--output", required=True)
+    reporting.add_argument("--recipe", default="snakemake -c2", help="what the page says to run")
     compiling.add_argument("module", choices=cases.KERNEL_MODULES)
     compiling.add_argument("--output", required=True, help="file that gets the sources' hash")
+
+
+def _add_pages(printing, keeping, asking):
+    printing.add_argument("--report", default="results/report/report.html", metavar="FILE")
+    printing.add_argument("--output", default="results/report/report.pdf", metavar="FILE")
+    keeping.add_argument("--results", default="results", metavar="FOLDER")
+    keeping.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
+    for one in (keeping, asking):
+        one.add_argument("--folder", default="reports/latest", help="where the report is kept")
 
 
 def _add_sample(parent):

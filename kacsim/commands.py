@@ -126,14 +126,17 @@ def run_reduce(arguments):
 
 
 def run_draw(arguments):
-    """Draw the figure of an item."""
+    """Draw the figure of an item, and write the numbers behind it."""
     _known_item(arguments.item)
-    from kacsim import items, plotting, store
+    from kacsim import csv_table, items, plotting, store
 
     dataset = store.read_dataset(arguments.dataset, arguments.item)
     figure = items.load(arguments.item).draw(dataset)
     for path in arguments.output:
-        plotting.save(figure, path)
+        if path.endswith(".csv"):
+            csv_table.write(dataset, path)
+        else:
+            plotting.save(figure, path)
 
 
 def run_report(arguments):
@@ -142,7 +145,30 @@ def run_report(arguments):
 
     for name in arguments.items:
         _known_item(name)
-    report.write(arguments.items, arguments.datasets, arguments.figures, arguments.output)
+    folders = arguments.datasets, arguments.figures
+    report.write(arguments.items, *folders, arguments.output, arguments.recipe)
+
+
+def run_print(arguments):
+    """Print the report."""
+    from kacsim import printing
+
+    printing.write(arguments.report, arguments.output)
+
+
+def run_keep(arguments):
+    """Keep the report of a full run."""
+    from kacsim import kept
+
+    checked = plan.Plan(plan.read_config(*arguments.config), arguments.config)
+    print(kept.keep(arguments.results, checked.settings, arguments.folder))
+
+
+def run_kept(arguments):
+    """Say which kernels have changed since."""
+    from kacsim import kept
+
+    print(kept.sentence(arguments.folder))
 
 
 def run_compile(arguments):
@@ -155,10 +181,13 @@ def run_compile(arguments):
 
 
 def run_times(arguments):
-    """Print where the time of a run went."""
+    """Print where the time of a run went, or write the page of it."""
     from kacsim import times
 
-    print(times.table(arguments.folder, arguments.since))
+    if arguments.output:
+        times.write(arguments.output, arguments.folder)
+    else:
+        print(times.table(arguments.folder, arguments.since))
 
 
 def run_summary(arguments):

@@ -3,9 +3,11 @@
 Nothing heavy is imported here: Snakemake reads the plan at every start.
 """
 
+import functools
 import json
 import math
 import os
+import shlex
 from pathlib import Path
 
 import yaml
@@ -45,7 +47,8 @@ def reduce_sources(name):
 def draw_sources(name):
     """Return the package's files that an item's figure depends on."""
     exact = "kac/exact.py", "boltzmann/bkw.py", "techniques/exact.py", "techniques/flux.py"
-    return f"items/{name}.py", *_shared_items(), "plotting.py", *exact
+    own = f"items/{name}.py", *_shared_items(), "plotting.py", "csv_table.py"
+    return (*own, *exact)
 
 
 def read_config(*paths):
@@ -210,6 +213,30 @@ class Plan:
     def settings_json(self, name):
         """Return an item's settings as JSON: the argument of the later stages."""
         return json.dumps(self.settings[name], sort_keys=True)
+
+
+@functools.cache
+def report_texts(name):
+    """Return the content of a file of texts of the report."""
+    return _read_yaml(ROOT / "reports" / name)
+
+
+def recipe(files, values):
+    """Return the start of the command that runs the workflow again with this configuration.
+
+    Parameters
+    ----------
+    files : configuration files beside the default one
+    values : key -> value of ``--config``
+    """
+    words = ["snakemake", "-c2"]
+    if files:
+        near = [Path(file).absolute() for file in files]
+        words += ["--configfile"]
+        words += [str(f.relative_to(ROOT) if f.is_relative_to(ROOT) else f) for f in near]
+    if values:
+        words += ["--config", *(f"{key}={value}" for key, value in sorted(values.items()))]
+    return shlex.join(words)
 
 
 MISSING = object()

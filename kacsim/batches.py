@@ -37,8 +37,17 @@ class Batch:
         return f"{self.id} ({number} case{'s' if number > 1 else ''})"
 
     def minutes(self):
-        """Return the time limit for a scheduler: ten times the expected one, and a margin."""
-        return 10 + round(10.0 * self.seconds() / 60.0)
+        """Return the time limit for a scheduler."""
+        return time_limit(self.seconds())
+
+    def megabytes(self):
+        """Return the memory to ask a scheduler for: that of the largest case."""
+        return max(case.megabytes() for case in self.cases)
+
+
+def time_limit(seconds):
+    """Return the minutes to ask a scheduler for: ten times the expected time, and a margin."""
+    return 10 + round(10.0 * seconds / 60.0)
 
 
 def make_batches(cases_of, batch_seconds):

@@ -51,7 +51,13 @@ def _parser():
     one.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
     one.add_argument("--item", help="list the cases of one item only")
     one.set_defaults(run=_plan)
-    _add_sample(commands)
+    for one in _add_sampling(commands, "sample", "draw one case"):
+        one.add_argument("--shard", type=_shard, default=(1, 1), help="k/K: these replicates only")
+        one.set_defaults(run=_sample)
+    for one in _add_sampling(commands, "merge", "join the shards of one case"):
+        one.add_argument("--shards", type=_shards, required=True, dest="shard", help="how many")
+        one.add_argument("--folder", default="results/shards", help="where they lie")
+        one.set_defaults(run=_merge)
     one = commands.add_parser("reduce", help="make the dataset of one item from its samples")
     one.add_argument("item")
     one.add_argument("--settings", required=True, help="the item's settings, as JSON")
@@ -85,8 +91,9 @@ def _parser():
     return parser
 
 
-def _add_sample(commands):
-    parent = commands.add_parser("sample", help="draw one case")
+def _add_sampling(commands, name, text):
+    """Add a command on one case; yield the parser of each sampler."""
+    parent = commands.add_parser(name, help=text)
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
     for sampler, names in cases.SAMPLERS.items():
         one = samplers.add_parser(sampler)
@@ -98,7 +105,7 @@ def _add_sample(commands):
         one.add_argument("--n-replicates", type=_integer, default=1)
         one.add_argument("--seed", type=_integer, required=True)
         one.add_argument("--output", required=True)
-        one.set_defaults(run=_sample)
+        yield one
 
 
 def _value(name):
@@ -115,6 +122,19 @@ def _integer(text):
         return int(text)
     except ValueError:
         return text
+
+
+def _shard(text):
+    """Return k/K as two integers; whether they are a shard of the case is checked later."""
+    try:
+        number, total = map(int, text.split("/"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: must be k/K, two integers") from None
+    return number, total
+
+
+def _shards(text):
+    return _shard(f"1/{text}")
 
 
 def _count(text):
@@ -154,17 +174,25 @@ def _sample_all(requests):
         start = time.perf_counter()
         variables = sampling.run(case)
         print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
-        title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
-        store.write(variables, arguments.output, title=title, settings=case.settings())
+        store.write(variables, arguments.output, title=case.title(), settings=case.settings())
+
+
+def _merge(arguments):
+    parts = _case_of(arguments).split(arguments.shard[1])
+    from kacsim import shards, store
+
+    store.check_writable(arguments.output)
+    case, variables = parts[0].whole(), shards.merged(parts, arguments.folder)
+    store.write(variables, arguments.output, title=case.title(), settings=case.settings())
 
 
 def _case_of(arguments):
-    """Return the case that the flags of `sample` describe."""
+    """Return the case that the flags of `sample` or `merge` describe."""
     names = cases.SAMPLERS[arguments.sampler]
     given = {name: getattr(arguments, name) for name in names}
     given = {name: value for name, value in given.items() if value is not None}
     size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}
-    case = cases.make_case(arguments.sampler, **given, **size)
+    case = cases.make_case(arguments.sampler, **given, **size, shard=arguments.shard)
     problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
     if problems:
         raise plan.PlanError("\n".join(map(str, problems)))

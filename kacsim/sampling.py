@@ -12,7 +12,7 @@ def run(case, progress=None):
 
     Parameters
     ----------
-    case : kacsim.cases.Case, already checked
+    case : kacsim.cases.Case, already checked; of a shard only its replicates are drawn
     progress : callable(draws done), called now and then
 
     Returns
@@ -25,7 +25,7 @@ def run(case, progress=None):
 
 def load(case):
     """Import the sampler of a case and load its compiled kernels, which `run` then need not."""
-    run(dataclasses.replace(case, n_draws=2, n_replicates=1))
+    run(dataclasses.replace(case, n_draws=2, n_replicates=1, shard=(1, 1)))
 
 
 def _tiny_cases():

@@ -139,6 +139,20 @@ def read_sample(path, case):
     return content
 
 
+def read_variables(path, case):
+    """Return the samples of a case as `write` was given them: xarray changes their order.
+
+    Raises
+    ------
+    StoreError
+        As `read_sample`.
+    """
+    content = read_sample(path, case)
+    with netCDF4.Dataset(path) as file:
+        names = list(file.variables)
+    return {name: (content[name].dims, content[name].values, content[name].attrs) for name in names}
+
+
 def check_writable(path):
     """Raise StoreError if no file can be written at the path: before any work starts."""
     path = Path(path)

@@ -5,6 +5,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+SHORT = 60.0  # seconds: what a job in a queue is not worth
+
 
 @dataclass(frozen=True)
 class Batch:
@@ -30,6 +32,10 @@ class Batch:
     def priority(self):
         """Return a rank below 1000 that starts the longest batches first."""
         return round(10.0 * math.log2(max(1.0, 1e6 * self.seconds())))
+
+    def group(self):
+        """Return the group that lets a scheduler join short batches of any kind, or None."""
+        return "samples" if self.seconds() < SHORT else None
 
     def description(self):
         """Return what the job does, for one line of a log."""

@@ -47,6 +47,8 @@ for batch in the_plan.batches:
         benchmark:
             f"benchmarks/sample/{batch.id}.tsv"
         priority: batch.priority()
+        group:
+            batch.group()
         threads: 1
         resources:
             mem_mb=batch.megabytes(),

@@ -5,6 +5,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from kacsim.cases import time_limit
+
 SHORT = 60.0  # seconds: what a job in a queue is not worth
 
 
@@ -49,11 +51,6 @@ class Batch:
     def megabytes(self):
         """Return the memory to ask a scheduler for: that of the largest case."""
         return max(case.megabytes() for case in self.cases)
-
-
-def time_limit(seconds):
-    """Return the minutes to ask a scheduler for: ten times the expected time, and a margin."""
-    return 10 + round(10.0 * seconds / 60.0)
 
 
 def make_batches(cases_of, batch_seconds):

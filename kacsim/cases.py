@@ -212,6 +212,10 @@ class Case:
             work = p["n_particles"] if p.get("engine") == "forward" else 6.0
         return WORK_SECONDS * draws * work
 
+    def minutes(self):
+        """Return the time limit for a scheduler."""
+        return time_limit(self.seconds())
+
     def megabytes(self):
         """Return the memory to ask for: 350, and 8 kB a replicate (histogram, file and buffers)."""
         return 350 + math.ceil(0.008 * len(self.replicates))
@@ -260,6 +264,11 @@ def make_case(sampler, *, n_draws, n_replicates, seed, shard=(1, 1), **parameter
     names = SAMPLERS[sampler]
     complete = {name: parameters.get(name, DEFAULTS.get(name)) for name in names}
     return Case(sampler, complete, n_draws, n_replicates, seed, shard)
+
+
+def time_limit(seconds):
+    """Return the minutes to ask a scheduler for: ten times the expected time, and a margin."""
+    return 10 + round(10.0 * seconds / 60.0)
 
 
 def flag(name):

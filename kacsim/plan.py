@@ -190,6 +190,10 @@ class Plan:
                 return file
         return self.files[0]
 
+    def shard(self, wildcards):
+        """Return the case that draws one shard, from the ``case`` and ``number`` of its file."""
+        return self.shards[wildcards.case][int(wildcards.number) - 1]
+
     def settings_json(self, name):
         """Return an item's settings as JSON: the argument of the later stages."""
         return json.dumps(self.settings[name], sort_keys=True)

@@ -1,13 +1,6 @@
 # Stage 1: cases become samples.
 import re
 
-from kacsim.batches import time_limit
-
-
-def the_shard(wildcards):
-    """Return the case that draws one shard."""
-    return the_plan.shards[wildcards.case][int(wildcards.number) - 1]
-
 
 rule compile:
     """Compile the kernels of one module once, before parallel jobs would each compile them."""
@@ -81,11 +74,11 @@ rule shard:
     priority: 999
     threads: 1
     resources:
-        mem_mb=lambda wildcards: the_shard(wildcards).megabytes(),
-        runtime=lambda wildcards: time_limit(the_shard(wildcards).seconds()),
+        mem_mb=lambda wildcards: the_plan.shard(wildcards).megabytes(),
+        runtime=lambda wildcards: the_plan.shard(wildcards).minutes(),
     params:
-        recipe=lambda wildcards: the_shard(wildcards).arguments(),
-        code=lambda wildcards: source_hash(*the_shard(wildcards).sources()),
+        recipe=lambda wildcards: the_plan.shard(wildcards).arguments(),
+        code=lambda wildcards: source_hash(*the_plan.shard(wildcards).sources()),
     message:
         "Sampling {wildcards.case}, shard {wildcards.number} of {wildcards.total}"
     shell:

@@ -19,6 +19,11 @@ COMMANDS = {
         "sample kac --algorithm bird --n-particles 50 --time 2 --n-draws 1000000 --seed 1 "
         "--output bird.nc",
     ),
+    "merge": (
+        "join the shards of one case",
+        "merge kac --algorithm bird --n-particles 50 --time 2 --n-draws 100 --n-replicates 4 "
+        "--seed 1 --shards 2 --output bird.nc",
+    ),
     "estimate": (
         "probe a density or a fraction by trees",
         "estimate bkw --velocity 4 --time 1 --n-realizations 100000",
@@ -114,7 +119,11 @@ def _parser(words=()):
         )
         parts[name].set_defaults(run=getattr(commands, f"run_{name}"))
     _add_configured(parts["plan"], parts["verify"])
-    _add_sample(parts["sample"])
+    for one in _add_sampling(parts["sample"]):
+        one.add_argument("--shard", type=_shard, default=(1, 1), help="k/K: these replicates only")
+    for one in _add_sampling(parts["merge"]):
+        one.add_argument("--shards", type=_shards, required=True, dest="shard", help="how many")
+        one.add_argument("--folder", default="results/shards", help="where they lie")
     if list(words[:1]) == ["estimate"]:
         from kacsim import estimating
 
@@ -168,7 +177,8 @@ def _add_pages(printing, keeping, asking):
         one.add_argument("--folder", default="reports/latest", help="where the report is kept")
 
 
-def _add_sample(parent):
+def _add_sampling(parent):
+    """Add the samplers to a command on one case; yield the parser of each."""
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
     for sampler, names in cases.SAMPLERS.items():
         text = meanings.DRAWS[sampler]
@@ -188,6 +198,7 @@ def _add_sample(parent):
         one.add_argument("--n-replicates", type=_integer, default=1, help="default 1")
         one.add_argument("--seed", type=_integer, required=True)
         one.add_argument("--output", required=True, help="NetCDF file")
+        yield one
 
 
 def _value(name):
@@ -204,6 +215,19 @@ def _integer(text):
         return int(text)
     except ValueError:
         return text
+
+
+def _shard(text):
+    """Return k/K as two integers; whether they are a shard of the case is checked later."""
+    try:
+        number, total = map(int, text.split("/"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: must be k/K, two integers") from None
+    return number, total
+
+
+def _shards(text):
+    return _shard(f"1/{text}")
 
 
 def _count(text):

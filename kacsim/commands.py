@@ -61,7 +61,7 @@ def run_sample(arguments):
 def run_sample_all(requests):
     """Draw cases one after the other; all are checked before the first is drawn."""
     chosen = [_case_of(arguments) for arguments in requests]
-    from kacsim import progress, provenance, sampling, store, times
+    from kacsim import progress, sampling, store, times
 
     for arguments in requests:
         store.check_writable(arguments.output)
@@ -72,22 +72,27 @@ def run_sample_all(requests):
         variables = sampling.run(case, line)
         line.end()
         print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
-        about = {
-            "title": f"{case.n_replicates} x {case.n_draws} draws of {case.id}",
-            "settings": case.settings(),
-            "code": provenance.source_hash(*case.sources()),
-        }
-        store.write(variables, arguments.output, **about)
+        store.write_sample(variables, arguments.output, case)
     return 0
 
 
+def run_merge(arguments):
+    """Join the shards of one case."""
+    parts = _case_of(arguments).split(arguments.shard[1])
+    from kacsim import shards, store
+
+    store.check_writable(arguments.output)
+    case, variables = parts[0].whole(), shards.merged(parts, arguments.folder)
+    store.write_sample(variables, arguments.output, case)
+
+
 def _case_of(arguments):
-    """Return the case that the flags of `sample` describe."""
+    """Return the case that the flags of `sample` or `merge` describe."""
     names = cases.SAMPLERS[arguments.sampler]
     given = {name: getattr(arguments, name) for name in names}
     given = {name: value for name, value in given.items() if value is not None}
     size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}
-    case = cases.make_case(arguments.sampler, **given, **size)
+    case = cases.make_case(arguments.sampler, **given, **size, shard=arguments.shard)
     problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
     if problems:
         raise plan.PlanError("\n".join(map(str, problems)))

@@ -1,30 +1,37 @@
 """Checksums of compiled kernels: machine code with a flipped bit must not draw anything.
 
-numba reads its cache without a check. A process that compiles leaves the checksums of the folder
-when it ends; a process that loads compares them first, and compiles again what does not fit. A
-folder without checksums is left alone: another process may be compiling there.
+numba reads its cache without a check. Whoever compiles leaves the checksums of the folder; whoever
+loads compares them first, and compiles again what does not fit. A folder without checksums is left
+alone: another process may be compiling there.
 """
 
-import atexit
+import contextlib
 import functools
 import hashlib
 import json
 import os
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 CHECKSUMS = "checksums.json"
-_kernels = []
+PATIENCE = 0.2  # seconds between another process saving code and sealing it, twice
 
 
 def watch(kernel):
-    """Check the folder of a kernel's compiled code, and seal it at the end if it is compiled."""
+    """Check the folder of a kernel's compiled code, and seal it whenever code is added."""
     folder = Path(kernel.stats.cache_path)
-    if not _kernels:
-        atexit.register(_seal_compiled)
-    _kernels.append((kernel, folder))
     repair(folder)
+    cache = kernel._cache  # numba tells nobody when it has saved
+    save = cache.save_overload
+
+    def save_and_seal(*arguments):
+        save(*arguments)
+        with contextlib.suppress(OSError):  # a full disk, a read-only folder: compiled again
+            seal(folder)
+
+    cache.save_overload = save_and_seal
 
 
 def _compiled(folder):
@@ -50,25 +57,16 @@ def repair(folder):
     -------
     bool, whether something was removed: it is compiled again at its first call
     """
-    try:
-        text = (folder / CHECKSUMS).read_text(encoding="utf-8")
-    except OSError:
-        return False
-    found = _compiled(folder)
-    if text == json.dumps(found):
-        return False
+    for wait in (PATIENCE, PATIENCE, 0.0):
+        try:
+            text = (folder / CHECKSUMS).read_text(encoding="utf-8")
+            found = _compiled(folder)
+        except OSError:
+            return False
+        if text == json.dumps(found):
+            return False
+        time.sleep(wait)
     for name in (*found, CHECKSUMS):
         (folder / name).unlink(missing_ok=True)
     print(f"{folder}: damaged kernels are compiled again", file=sys.stderr)
     return True
-
-
-def _seal_compiled():
-    for kernel, folder in _kernels:
-        compiled = sum(kernel.stats.cache_misses.values())
-        loaded = sum(kernel.stats.cache_hits.values())
-        try:
-            if compiled or (loaded and not (folder / CHECKSUMS).exists()):
-                seal(folder)
-        except OSError:  # a full disk or a read-only folder: the next process compiles again
-            continue

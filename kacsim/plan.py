@@ -15,6 +15,7 @@ import yaml
 from kacsim import items
 from kacsim.batches import make_batches
 from kacsim.provenance import ROOT
+from kacsim.shards import make_shards
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml")
@@ -118,7 +119,12 @@ class Plan:
             problems += self._edge_problems(name)
         self._refuse(problems)
         self.cases = {case.id: case for cases in self.cases_of.values() for case in cases}
-        self.batches = make_batches(self.cases_of, self.config["batch_seconds"])
+        self.shards = make_shards(self.cases.values(), self.config["shard_seconds"])
+        whole = {
+            name: [case for case in cases if case.id not in self.shards]
+            for name, cases in self.cases_of.items()
+        }
+        self.batches = make_batches(whole, self.config["batch_seconds"])
 
     def _settings_of(self, name):
         common = {key: self.config[key] for key in COMMON}
@@ -187,9 +193,14 @@ class Plan:
                 return file
         return self.files[0]
 
+    def shard(self, wildcards):
+        """Return the case that draws one shard, from the ``case`` and ``number`` of its file."""
+        return self.shards[wildcards.case][int(wildcards.number) - 1]
+
     def table(self, chosen):
         """Return a table of cases: the job that draws each, draws, expected seconds and items."""
         job_of = {case.id: batch.id for batch in self.batches for case in batch.cases}
+        job_of |= {name: f"{len(parts)} shards of {name}" for name, parts in self.shards.items()}
         items_of = {}
         for name, cases in self.cases_of.items():
             for case in cases:

@@ -83,6 +83,12 @@ def write(content, path, *, title, settings, code=""):
     replace_file(path, lambda name: _write_netcdf(name, variables, attributes))
 
 
+def write_sample(variables, path, case):
+    """Write the samples of a case, or of a shard, with what `read_sample` will check."""
+    code = provenance.source_hash(*case.sources())
+    write(variables, path, title=case.title(), settings=case.settings(), code=code)
+
+
 def _checksum(variables, attributes):
     """Return the hash of names, values and attributes: a file with flipped bits fails it."""
     digest = hashlib.sha256(json.dumps(attributes, sort_keys=True).encode())
@@ -185,6 +191,20 @@ def read_dataset(path, item):
             f"{path}: holds {content.attrs['item']}, not {item}; remove it and run snakemake again"
         )
     return content
+
+
+def read_variables(path, case):
+    """Return the samples of a case as `write` was given them: xarray changes their order.
+
+    Raises
+    ------
+    StoreError
+        As `read_sample`.
+    """
+    content = read_sample(path, case)
+    with netCDF4.Dataset(path) as file:
+        names = list(file.variables)
+    return {name: (content[name].dims, content[name].values, content[name].attrs) for name in names}
 
 
 def check_writable(path):

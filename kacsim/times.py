@@ -12,7 +12,7 @@ DRAWN = re.compile(r"^drew .* in ([0-9.]+) s$", re.MULTILINE)
 
 def drawn_sentence(case, seconds):
     """Return the line that a sampler leaves in its log."""
-    return f"drew {case.n_draws * case.n_replicates} values of {case.id} in {seconds:.3f} s"
+    return f"drew {case.n_draws * len(case.replicates)} values of {case.id} in {seconds:.3f} s"
 
 
 def _job_seconds(file):

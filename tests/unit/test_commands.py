@@ -11,7 +11,7 @@ from kacsim import boltzmann, cli, estimating, kac, sampling, store, verify
 from kacsim.cases import SAMPLERS, make_case
 from kacsim.meanings import DRAWS, MEANINGS
 from kacsim.progress import Progress
-from kacsim.provenance import ROOT, source_hash
+from kacsim.provenance import ROOT
 
 CONFIG = ROOT / "config" / "config.yaml"
 
@@ -118,8 +118,7 @@ def test_verify_finds_one_wrong_count(drawn):
     """A file that is whole, with one draw in another bin."""
     variables = sampling.run(drawn)
     variables["counts"][1][1, 40] += 1
-    code = source_hash(*drawn.sources())
-    store.write(variables, drawn.output(), title="t", settings=drawn.settings(), code=code)
+    store.write_sample(variables, drawn.output(), drawn)
     state, sentence = verify.verify(drawn, "results/samples")
     assert state == verify.DIFFERENT
     assert "differs in counts" in sentence

@@ -57,10 +57,8 @@ def test_kernels_are_kept_and_damaged_ones_compiled_again(draw, tmp_path):
     assert draw()[1], "sealed again"
 
 
-def test_kernels_without_checksums_get_them(draw, tmp_path):
+def test_kernels_without_checksums_are_left_alone(draw, tmp_path):
     first, _, _ = draw()
     (seal,) = (tmp_path / "kernels").rglob("checksums.json")
-    kept = seal.read_bytes()
     seal.unlink()
     assert draw() == (first, True, "")
-    assert seal.read_bytes() == kept

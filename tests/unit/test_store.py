@@ -12,7 +12,6 @@ import xarray as xr
 
 from kacsim import store
 from kacsim.cases import make_case
-from kacsim.provenance import source_hash
 
 SETTINGS = {"n_particles": [3, 7], "time": 1.7, "engine": "forward", "items": {"a": {"b": 1}}}
 
@@ -184,8 +183,7 @@ def sample_case(time=1.7, seed=1):
 
 def test_samples_of_other_settings_are_refused(tmp_path):
     case, path = sample_case(), tmp_path / "a.nc"
-    code = source_hash(*case.sources())
-    store.write(content(), path, title="t", settings=case.settings(), code=code)
+    store.write_sample(content(), path, case)
     assert store.read_sample(path, case).attrs["settings"] == json.loads(
         json.dumps(case.settings())
     )

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import browser, cases, console, items, plan
+from kacsim import browser, cases, console, items, labels, plan
 from kacsim.provenance import ROOT, source_hash
 
 

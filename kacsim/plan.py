@@ -3,7 +3,6 @@
 Nothing heavy is imported here: Snakemake reads the plan at every start.
 """
 
-import functools
 import json
 import math
 import os
@@ -224,12 +223,6 @@ class Plan:
     def settings_json(self, name):
         """Return an item's settings as JSON: the argument of the later stages."""
         return json.dumps(self.settings[name], sort_keys=True)
-
-
-@functools.cache
-def report_texts(name):
-    """Return the content of a file of texts of the report."""
-    return _read_yaml(ROOT / "reports" / name)
 
 
 def recipe(files, values):

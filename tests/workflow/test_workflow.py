@@ -1,6 +1,7 @@
 """The workflow: what a run makes, and what a change makes it do again."""
 
 import json
+import shutil
 
 import pytest
 import yaml
@@ -113,6 +114,22 @@ def test_changing_a_setting_changes_only_its_item(project):
         "kac-bird-forward-n10-t2-3x2001",
         "kac-poisson-forward-n10-t2-3x2001",
     }
+
+
+def test_shards_give_the_same_samples_and_are_not_kept(finished, project):
+    words = ("results/datasets/kac_fig5.nc", *SMOKE, "--config", "shard_seconds=0.0025")
+    jobs = project.planned(*words)
+    assert jobs == {"shard": 4, "merge": 2, "reduce": 1}
+    for part in ("samples", "datasets"):  # what is compared below is made anew
+        shutil.rmtree(project.folder / "results" / part)
+    assert project.snakemake(*words).returncode == 0
+    made = list((project.folder / "results/samples").glob("*.nc"))
+    assert len(made) == 2
+    for path in [*made, project.folder / "results/datasets/kac_fig5.nc"]:
+        again = finished.folder / path.relative_to(project.folder)
+        assert path.read_bytes() == again.read_bytes()
+    assert not list(project.folder.glob("results/shards/*"))
+    assert project.planned(*words) == {}
 
 
 def test_another_seed_samples_everything_again(project):

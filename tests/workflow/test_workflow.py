@@ -1,11 +1,14 @@
 """The workflow: what a run makes, and what a change makes it do again."""
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 
 import pytest
 import yaml
-from conftest import SMOKE, copy_project
+from conftest import ROOT, SMOKE, copy_project
 
 from kacsim import items, plan
 
@@ -168,3 +171,13 @@ def test_a_file_that_is_no_configuration_starts_nothing(tmp_path, content):
     assert "onfig file" in answer.stderr
     assert "Traceback" not in answer.stderr
     assert not (tmp_path / "results").exists()
+
+
+def test_the_example_of_the_documents_runs(finished):
+    words = [sys.executable, str(ROOT / "docs" / "example.py")]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    answer = subprocess.run(
+        words, cwd=finished.folder, env=environment, capture_output=True, text=True
+    )
+    assert answer.returncode == 0, answer.stderr
+    assert "E[v**4] = " in answer.stdout

@@ -170,10 +170,8 @@ SAMPLER_FILES = {
 }
 # Measured: a collision, or a node of a tree, with all that belongs to it.
 WORK_SECONDS = 3e-8
-# Samplers that record runs, or are short whatever is asked: a file of theirs is drawn in one go.
-UNSHARDED = ("kac_corners", "bkw_tree", "inverse_transform", "inversion", "rejection", "identity")
-UNSHARDED += ("injection", "outer_gas", "weighted_particles")
-UNSHARDED += ("sphere_lattice", "sphere_points", "area")
+# Samplers that record runs or count, without replicates: theirs is drawn in one go.
+UNSHARDED = ("kac_corners", "bkw_tree", "sphere_lattice")
 KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
 
 
@@ -269,16 +267,17 @@ class Case:
         return time_limit(self.seconds())
 
     def megabytes(self):
-        """Return the memory to ask for: 350, and 8 kB a replicate (histogram, file and buffers)."""
-        return 350 + math.ceil(0.008 * len(self.replicates))
+        """Return the memory to ask for: 350, and for a replicate its histograms, three times."""
+        tables = len(self.parameters.get("n_table", [1]))
+        each = 0.25 * tables if self.family == "techniques" else 0.008
+        return 350 + math.ceil(each * len(self.replicates))
 
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
         home = checks if hasattr(checks, self.sampler) else checks_techniques
         check = getattr(home, self.sampler)
-        size_problems = [*checks.amount(**size), *self._shard_problems()]
-        return [*check(**self.parameters), *size_problems]
+        return [*check(**self.parameters), *checks.amount(**size), *self._shard_problems()]
 
     def _shard_problems(self):
         number, total = self.shard

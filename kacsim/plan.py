@@ -21,6 +21,7 @@ REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml"
 # Thresholds of tails, and the width of the bins that samples are counted in.
 EDGES = {"tail_above", "tail_threshold", "claim_threshold"}
 FINEST = 0.05
+JOBS = ("batch_seconds", "shard_seconds")  # how cases become jobs: no result depends on them
 COMMON = ("seed", "bin_width", "other_bin_widths")
 
 
@@ -199,7 +200,7 @@ class Plan:
     def table(self, chosen):
         """Return a table of cases: the job that draws each, draws, expected seconds and items."""
         job_of = {case.id: batch.id for batch in self.batches for case in batch.cases}
-        job_of |= {name: f"{len(parts)} shards of {name}" for name, parts in self.shards.items()}
+        job_of |= {name: f"{len(parts)} shards" for name, parts in self.shards.items()}
         items_of = {}
         for name, cases in self.cases_of.items():
             for case in cases:
@@ -212,7 +213,8 @@ class Plan:
         widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]) - 1)]
         lines = ["  ".join(map(str.ljust, row, (*widths, 0))) for row in rows]
         seconds = sum(case.seconds() for case in chosen)
-        jobs = len({job_of[case.id] for case in chosen})
+        split = [len(self.shards[case.id]) + 1 for case in chosen if case.id in self.shards]
+        jobs = len({job_of[case.id] for case in chosen if case.id not in self.shards}) + sum(split)
         wanted = len({name for case in chosen for name in items_of[case.id]})
         lines.append(
             f"{len(chosen)} cases in {jobs} jobs, about {seconds:.0f} s of one core in kernels; "
@@ -238,6 +240,7 @@ def recipe(files, values):
         near = [Path(file).absolute() for file in files]
         words += ["--configfile"]
         words += [str(f.relative_to(ROOT) if f.is_relative_to(ROOT) else f) for f in near]
+    values = {key: value for key, value in values.items() if key not in JOBS}
     if values:
         words += ["--config", *(f"{key}={value}" for key, value in sorted(values.items()))]
     return shlex.join(words)

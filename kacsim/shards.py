@@ -56,6 +56,9 @@ def merged(parts, folder="results/shards"):
     from kacsim import store
     from kacsim.boltzmann.sampling import TOP, descending
     from kacsim.kac.sampling import KEPT
+    from kacsim.techniques.sampling import RECORDED
+
+    most = RECORDED if parts[0].family == "techniques" else KEPT
 
     rows, found = {}, {}
     for part in parts:
@@ -63,8 +66,8 @@ def merged(parts, folder="results/shards"):
         for name, (dims, values, attributes) in content.items():
             if "replicate" in dims:
                 rows.setdefault(name, []).append(values)
-            elif name in found and dims in (("kept",), ("draw",)):
-                values = np.concatenate([found[name][1], values])[:KEPT]
+            elif name in found and dims[0] in ("kept", "draw"):
+                values = np.concatenate([found[name][1], values])[:most]
             elif name in found and "rank" in dims:
                 values = descending(np.concatenate([found[name][1], values], axis=-1))[..., :TOP]
             found[name] = dims, values, attributes

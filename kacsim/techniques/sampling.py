@@ -28,21 +28,21 @@ SUMS = ("number", "speed", "speed_2", "speed_4", "tangent_1", "tangent_2", "prod
 
 
 def _draw_law(case, law, fill, progress):
-    """Stream all replicates of a law through fill(values, replicate, stream); return variables."""
-    counts = np.zeros((case.n_replicates, CELLS), np.int64)
-    sums = np.zeros((case.n_replicates, len(POWERS)))
-    uniforms = np.zeros(case.n_replicates, np.int64)
+    """Stream all replicates of a law through fill(values, row, stream); return variables."""
+    counts = np.zeros((len(case.replicates), CELLS), np.int64)
+    sums = np.zeros((len(case.replicates), len(POWERS)))
+    uniforms = np.zeros(len(case.replicates), np.int64)
     done = 0
-    for replicate in range(case.n_replicates):
+    for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
         start = stream.copy()
         for first in range(0, case.n_draws, CHUNK):
             values = np.empty(min(CHUNK, case.n_draws - first))
-            fill(values, replicate, stream)
-            model.fill_cells(values, LAWS.index(law), counts[replicate], sums[replicate])
+            fill(values, row, stream)
+            model.fill_cells(values, LAWS.index(law), counts[row], sums[row])
             done += values.size
             progress(done)
-        uniforms[replicate] = model.uniforms_between(start, stream)
+        uniforms[row] = model.uniforms_between(start, stream)
     return counts, sums / case.n_draws, uniforms / case.n_draws
 
 
@@ -64,12 +64,12 @@ def sample_inverse_transform(case, progress):
     uniforms, last[table, replicate] (share of draws in the last interval)
     """
     law, sizes = case.parameters["law"], case.parameters["n_table"]
-    parts, last = [], np.zeros((len(sizes), case.n_replicates))
+    parts, last = [], np.zeros((len(sizes), len(case.replicates)))
     for k, n_table in enumerate(sizes):
         table = inverse_transform.law_table(law, n_table)
 
-        def fill(values, replicate, stream, k=k, table=table):
-            last[k, replicate] += inverse_transform.through_table(values, table, stream)
+        def fill(values, row, stream, k=k, table=table):
+            last[k, row] += inverse_transform.through_table(values, table, stream)
 
         parts.append(_draw_law(case, law, fill, progress))
     dims = ("n_table", "replicate")
@@ -84,7 +84,7 @@ def sample_inversion(case, progress):
     """Draw by a cumulative function inverted in closed form (exercise 1); values times the rate."""
     law, rate = case.parameters["law"], case.parameters["rate"]
 
-    def fill(values, replicate, stream):
+    def fill(values, row, stream):
         inverse_transform.closed_form(values, LAWS.index(law), stream)
 
     counts, moments, uniforms = _draw_law(case, law, fill, progress)
@@ -100,10 +100,10 @@ def sample_rejection(case, progress):
     """
     law, envelope = case.parameters["law"], case.parameters["envelope"]
     arguments = rejection.arguments(law, envelope)
-    trials = np.zeros(case.n_replicates)
+    trials = np.zeros(len(case.replicates))
 
-    def fill(values, replicate, stream):
-        trials[replicate] += rejection.draw(values, *arguments, stream)
+    def fill(values, row, stream):
+        trials[row] += rejection.draw(values, *arguments, stream)
 
     found = _law_variables(*_draw_law(case, law, fill, progress))
     points = np.empty((RECORDED, 3))
@@ -116,22 +116,22 @@ def sample_rejection(case, progress):
 
 def sample_identity(case, progress):
     """Draw f0 by the Gamma identity."""
-    fill = lambda values, replicate, stream: identity.draw(values, stream)  # noqa: E731
+    fill = lambda values, row, stream: identity.draw(values, stream)  # noqa: E731
     return _law_variables(*_draw_law(case, "kac_initial", fill, progress))
 
 
 def _entering(case, progress, run):
     """Stream steps through run(n_steps, counts, tallies, stream); return variables by face."""
-    counts = np.zeros((case.n_replicates, len(FACES), MOST + 1), np.int64)
-    sums = np.zeros((case.n_replicates, len(FACES), len(SUMS)))
-    speeds = np.zeros((case.n_replicates, len(FACES), SPEED_BINS), np.int64)
+    counts = np.zeros((len(case.replicates), len(FACES), MOST + 1), np.int64)
+    sums = np.zeros((len(case.replicates), len(FACES), len(SUMS)))
+    speeds = np.zeros((len(case.replicates), len(FACES), SPEED_BINS), np.int64)
     width = SPEED_WIDTH * math.sqrt(case.parameters["temperature"])
     kept, n_kept = np.empty((RECORDED, 7)), 0
-    for replicate in range(case.n_replicates):
+    for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
-        tallies = sums[replicate], speeds[replicate], width, kept[n_kept:]
-        n_kept += run(case.n_draws, counts[replicate], tallies, stream)
-        progress((replicate + 1) * case.n_draws)
+        tallies = sums[row], speeds[row], width, kept[n_kept:]
+        n_kept += run(case.n_draws, counts[row], tallies, stream)
+        progress((row + 1) * case.n_draws)
     dims = ("replicate", "face")
     return {
         "steps": described(counts, (*dims, "number"), "steps by number of particles"),
@@ -190,14 +190,14 @@ def sample_weighted_particles(case, progress):
     drift = np.array(p["drift"], dtype=float)
     particles.representatives(velocities, drift, math.sqrt(p["temperature"]), stream)
     ranges = particles.index_range(velocities, weights, (1.0, 0.0, 0.0))
-    selected = np.zeros((case.n_replicates, n), np.int64)
-    for replicate in range(case.n_replicates):
+    selected = np.zeros((len(case.replicates), n), np.int64)
+    for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
         for first in range(0, case.n_draws, CHUNK):
             indices = np.empty(min(CHUNK, case.n_draws - first), np.int64)
             particles.select(indices, ranges, stream)
-            selected[replicate] += np.bincount(indices, minlength=n)
-        progress((replicate + 1) * case.n_draws)
+            selected[row] += np.bincount(indices, minlength=n)
+        progress((row + 1) * case.n_draws)
     return {
         "velocity": described(velocities, ("particle", "axis"), "representative velocities"),
         "weight": described(weights, ("particle",), "weights"),
@@ -226,16 +226,16 @@ def sample_sphere_points(case, progress):
     """Count points of a generator inside spheres: inside[dimension, replicate, points]."""
     p = case.parameters
     n_points = np.array(p["n_points"], dtype=np.int64)
-    inside = np.empty((len(p["dimension"]), case.n_replicates, n_points.size), np.int64)
+    inside = np.empty((len(p["dimension"]), len(case.replicates), n_points.size), np.int64)
     count = {
         "good": integration.count_random,
         "exhausted": integration.count_exhausted,
         "congruential": integration.count_congruential,
     }.get(p["generator"], integration.count_sobol)
     for k, dimension in enumerate(p["dimension"]):
-        for replicate in range(case.n_replicates):
+        for row, replicate in enumerate(case.replicates):
             stream = new_stream(case.seed, f"{case.id} dimension {dimension}", replicate)
-            count(inside[k, replicate], n_points, dimension, stream)
+            count(inside[k, row], n_points, dimension, stream)
         progress(k + 1)
     return {
         "inside": described(inside, ("dimension", "replicate", "points"), "points in the sphere"),
@@ -248,13 +248,13 @@ def sample_area(case, progress):
     """Integrate (1 - x**2)**exponent with many seeds: estimate[way, replicate, points]."""
     p = case.parameters
     n_points = np.array(p["n_points"], dtype=np.int64)
-    sums = np.empty((2, case.n_replicates, n_points.size))
-    for replicate in range(case.n_replicates):
+    sums = np.empty((2, len(case.replicates), n_points.size))
+    for row, replicate in enumerate(case.replicates):
         part = np.empty((2, n_points.size))
         stream = new_stream(case.seed, case.id, replicate)
         integration.sum_area(part, n_points, float(p["exponent"]), stream)
-        sums[:, replicate] = part
-    progress(case.n_replicates)
+        sums[:, row] = part
+    progress(len(case.replicates))
     return {
         "estimate": described(2.0 * sums / n_points, ("way", "replicate", "points"), "area"),
         "points": described(n_points, ("points",), "number of points"),

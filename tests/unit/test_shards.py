@@ -11,6 +11,7 @@ from kacsim.boltzmann import sampling as boltzmann_sampling
 from kacsim.cases import LISTS, SAMPLERS, UNSHARDED, make_case
 from kacsim.kac import sampling as kac_sampling
 from kacsim.provenance import ROOT
+from kacsim.techniques import sampling as techniques_sampling
 
 CONFIG = ROOT / "config" / "config.yaml"
 SIZE = {"n_draws": 60, "n_replicates": 5, "seed": 3}
@@ -20,6 +21,8 @@ LIMIT = 130  # of first and largest values: fewer than a case draws, more than o
 
 
 def case_of(sampler, **size):
+    if sampler in sampling.TINY:
+        return make_case(sampler, **sampling.TINY[sampler][0], **(SIZE | size))
     given = {name: value for name, value in PROBES.items() if name in SAMPLERS[sampler]}
     for name in ("speed", "time", "threshold", "majorant", "radius", "oversampling"):
         if name in SAMPLERS[sampler]:
@@ -42,6 +45,7 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(kac_sampling, "KEPT", LIMIT)
     monkeypatch.setattr(boltzmann_sampling, "TOP", LIMIT)
+    monkeypatch.setattr(techniques_sampling, "RECORDED", LIMIT)
 
 
 @pytest.mark.parametrize("sampler", [name for name in SAMPLERS if name not in UNSHARDED])
@@ -57,10 +61,10 @@ def test_any_number_of_shards_gives_the_same_bytes(sampler, folder):
 
 def test_the_limits_are_reached(folder):
     """The cases above would not show a wrong merge of first or largest values otherwise."""
-    names = {"kac": "kept_velocity", "kac_equilibrium": "coupling_time", "bkw": "top"}
+    names = {"kac_equilibrium": "coupling_time", "bkw": "top", "injection": "kept"}
     for sampler, name in names.items():
-        size = 200 if sampler == "kac" else 60
-        assert sampling.run(case_of(sampler, n_draws=size))[name][1].shape[-1] == LIMIT
+        assert LIMIT in sampling.run(case_of(sampler))[name][1].shape
+    assert sampling.run(case_of("kac", n_draws=200))["kept_velocity"][1].size == LIMIT
 
 
 def test_first_values_above_a_threshold_are_cut_at_their_limit(folder):
@@ -133,11 +137,24 @@ def test_text_that_is_no_shard_is_refused(shard, capsys):
 
 
 def test_samplers_of_runs_are_not_sharded():
-    tiny = {case.sampler: case for case in sampling._tiny_cases()}
     for sampler in UNSHARDED:
-        case = dataclasses.replace(tiny[sampler], n_replicates=5)
+        case = case_of(sampler)
         assert shards.make_shards([case], 1e-12) == {}
         assert dataclasses.replace(case, shard=(1, 2)).problems()
+
+
+def test_the_table_of_cases_tells_the_shards():
+    some = plan.Plan(plan.read_config(CONFIG) | {"shard_seconds": 5.0}, [CONFIG])
+    name, parts = next(iter(some.shards.items()))
+    assert f"{len(parts)} shards" in some.table([some.cases[name]])
+    assert f"1 cases in {len(parts) + 1} jobs" in some.table([some.cases[name]])
+
+
+def test_the_report_tells_no_way_of_making_jobs():
+    """Else its bytes would depend on the number of shards."""
+    given = {"batch_seconds": 600, "shard_seconds": 5}
+    assert plan.recipe([], given) == plan.recipe([], {})
+    assert "seed=7" in plan.recipe([], given | {"seed": 7})
 
 
 def test_the_plan_shards_the_long_cases_only():

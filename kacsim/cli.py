@@ -158,7 +158,7 @@ def _add_stages(reducing, drawing, reporting, compiling):
     reducing.add_argument("--output", required=True)
     drawing.add_argument("item")
     drawing.add_argument("--dataset", required=True)
-    drawing.add_argument("--output", required=True, nargs="+", help="png, svg, pdf or csv files")
+    drawing.add_argument("--output", required=True, nargs="+", help="svg, png, pdf, csv; sha256")
     reporting.add_argument("--datasets", default="results/datasets", metavar="FOLDER")
     reporting.add_argument("--figures", default="results/figures", metavar="FOLDER")
     reporting.add_argument("--items", nargs="+", required=True)

@@ -137,11 +137,15 @@ def run_draw(arguments):
 
     dataset = store.read_dataset(arguments.dataset, arguments.item)
     figure = items.load(arguments.item).draw(dataset)
-    for path in arguments.output:
+    sums = [path for path in arguments.output if path.endswith(".sha256")]
+    drawn = [path for path in arguments.output if path not in sums]
+    for path in drawn:
         if path.endswith(".csv"):
             csv_table.write(dataset, path)
         else:
             plotting.save(figure, path)
+    for path in sums:
+        store.write_sums(drawn, path)
 
 
 def run_report(arguments):

@@ -68,6 +68,8 @@ def write(items, datasets_folder, figures_folder, output, recipe=RECIPE):
         if name not in captions:
             raise store.StoreError(f"{TEXTS / 'captions.yaml'}: has no entry {name}")
         figure = Path(figures_folder) / f"{name}.svg"
+        if figure.with_suffix(".sha256").exists():
+            store.check_sums(figure.with_suffix(".sha256"))
         item = _item(env, name, datasets[name], captions[name], figure)
         item["claims"] = [row for row in claims.values() if row["item"] == name]
         item["dataset_link"] = _link(paths[name], folder)

@@ -207,6 +207,36 @@ def read_variables(path, case):
     return {name: (content[name].dims, content[name].values, content[name].attrs) for name in names}
 
 
+def write_sums(paths, output):
+    """Write the SHA-256 of files of one folder, in the form of `sha256sum`."""
+    lines = [f"{_sum(path)}  {Path(path).name}\n" for path in sorted(paths)]
+    replace_file(output, lambda name: Path(name).write_text("".join(lines), encoding="utf-8"))
+
+
+def check_sums(path):
+    """Refuse files that do not fit the sums kept beside them.
+
+    Raises
+    ------
+    StoreError
+        Names the first file that has changed since it was written.
+    """
+    path = Path(path)
+    try:
+        kept = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
+        wrong = [
+            path.with_name(name) for digest, name in kept if _sum(path.with_name(name)) != digest
+        ]
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path}: cannot be read: remove it and run snakemake again") from error
+    for changed in wrong:
+        raise StoreError(f"{changed}: has changed; remove it and run snakemake again to rebuild it")
+
+
+def _sum(path):
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
 def check_writable(path):
     """Raise StoreError if no file can be written at the path: before any work starts."""
     path = Path(path)

@@ -21,12 +21,14 @@ SMOKE = ("--configfile", "config/smoke.yaml")
 KINDS = {  # kind of file -> pattern below the working folder
     "sample": "results/samples/*.nc",
     "dataset": "results/datasets/*.nc",
+    "kernel mark": "results/kernels/**/*.txt",
+    "kernel cache": "kernels/**/*.nbc",
+}
+FIGURES = {  # of these the report finds out: a run of single items has no stage after them
     "png": "results/figures/*.png",
     "svg": "results/figures/*.svg",
     "pdf": "results/figures/*.pdf",
     "csv": "results/figures/*.csv",
-    "kernel mark": "results/kernels/**/*.txt",
-    "kernel cache": "kernels/**/*.nbc",
 }
 
 
@@ -199,15 +201,21 @@ def break_files(make, expected, full):
     """Break files of every kind: rebuilt, or named with what to do; never silently used."""
     choice, run, tries = random.Random(14), make(), 0
     run.complete()
-    for kind, pattern in KINDS.items():
-        for way in (truncate, zero, flip, swap, remove):
-            files = sorted(run.folder.glob(pattern))
-            if not files or (way is swap and len(files) < 2):
-                continue
-            for victim in choice.sample(files, min(len(files), 2 if full else 1)):
-                way(victim, files)
-                _recover(run, victim, expected, f"{way.__name__} {kind}")
-                tries += 1
+    kinds = KINDS if run.targets else KINDS | FIGURES
+    cases = [(kind, way) for kind in kinds for way in (truncate, zero, flip, swap, remove)]
+    if not full:
+        cases = [("sample", flip), ("sample", swap), ("dataset", truncate), ("kernel cache", flip)]
+    for kind, way in cases:
+        base = run.cache.parent if kind == "kernel cache" else run.folder
+        files = sorted(base.glob(kinds[kind]))
+        if way is swap and len(files) < 2:
+            continue
+        for victim in choice.sample(files, min(len(files), 2 if full else 1)):
+            way(victim, files)
+            if kind == "kernel cache":
+                shutil.rmtree(run.folder / "results/samples")
+            _recover(run, victim, expected, f"{way.__name__} {kind}")
+            tries += 1
     return tries
 
 
@@ -322,7 +330,7 @@ def main():
     parser.add_argument("--items", nargs="+", default=[], help="items; everything without")
     wanted = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
-        cache = Path(scratch) / "warm"
+        cache = Path(scratch) / "kernels"
 
         def make():
             return Run(tempfile.mkdtemp(dir=scratch), wanted.items, cache)

@@ -241,3 +241,17 @@ def test_no_flipped_byte_changes_what_is_read(tmp_path):
             refused += 1
         other.unlink()
     assert refused > 50
+
+
+def test_sums_name_the_file_that_has_changed(tmp_path):
+    files = [tmp_path / "a.png", tmp_path / "a.pdf"]
+    for file in files:
+        file.write_bytes(b"content")
+    store.write_sums(files, tmp_path / "a.sha256")
+    store.check_sums(tmp_path / "a.sha256")
+    files[0].write_bytes(b"Content")
+    with pytest.raises(store.StoreError, match=r"a\.png: has changed; remove it"):
+        store.check_sums(tmp_path / "a.sha256")
+    files[0].unlink()
+    with pytest.raises(store.StoreError, match=r"a\.sha256: cannot be read"):
+        store.check_sums(tmp_path / "a.sha256")

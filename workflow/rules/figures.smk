@@ -13,7 +13,7 @@ rule draw:
             subcategory=labels.part_of,
             labels=labels.labels_of,
         ),
-        expand("results/figures/{{item}}.{format}", format=FORMATS[1:]),
+        expand("results/figures/{{item}}.{format}", format=(*FORMATS[1:], "sha256")),
     log:
         "logs/draw/{item}.log",
     benchmark:

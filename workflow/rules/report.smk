@@ -9,7 +9,11 @@ rule report:
     """Write one HTML file with every figure, every number and every verdict."""
     input:
         datasets=expand("results/datasets/{item}.nc", item=items.NAMES),
-        figures=expand("results/figures/{item}.svg", item=items.NAMES),
+        figures=expand(
+            "results/figures/{item}.{format}",
+            item=items.NAMES,
+            format=(*FORMATS, "sha256"),
+        ),
         texts=[ROOT / "reports" / name for name in plan.REPORT_FILES],
     output:
         report(

@@ -197,7 +197,7 @@ def _add_sampling(parent):
         one.add_argument("--n-draws", type=_integer, required=True, help="draws of a replicate")
         one.add_argument("--n-replicates", type=_integer, default=1, help="default 1")
         one.add_argument("--seed", type=_integer, required=True)
-        one.add_argument("--output", required=True, help="NetCDF file")
+        one.add_argument("--output", required=True, help="file ending in .nc or .csv")
         yield one
 
 

@@ -84,7 +84,17 @@ def write(content, path, *, title, settings, code=""):
 
 
 def write_sample(variables, path, case):
-    """Write the samples of a case, or of a shard, with what `read_sample` will check."""
+    """Write the samples of a case, or of a shard, with what `read_sample` will check.
+
+    A name that ends in .csv gets the values alone, as a table.
+    """
+    if str(path).endswith(".csv"):
+        import xarray as xr
+
+        from kacsim import csv_table
+
+        csv_table.write(xr.Dataset(variables), path)
+        return
     code = provenance.source_hash(*case.sources())
     write(variables, path, title=case.title(), settings=case.settings(), code=code)
 

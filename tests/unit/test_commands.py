@@ -165,3 +165,16 @@ def test_progress_is_silent_in_a_log():
     line(5)
     line.end()
     assert stream.getvalue() == ""
+
+
+def test_samples_as_text(tmp_path, drawn):
+    words = [*drawn.arguments().split(), "--output", str(tmp_path / "a.csv")]
+    assert cli.main(["sample", *words]) == 0
+    lines = (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith("replicate,")
+    counts = store.read_sample(drawn.output(), drawn)["counts"].values
+    column = lines[0].split(",").index("counts [1]")
+    found = [
+        int(cells[column]) for cells in (line.split(",") for line in lines[1:]) if cells[column]
+    ]
+    assert found == counts.ravel().tolist()

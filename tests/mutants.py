@@ -6,8 +6,9 @@ python tests/mutants.py --sample 4 --choice 17
 
 Each slip of mutants.yaml is applied to a copy of the project. The tests named there run first;
 if they pass, the whole default suite does, but for tests/workflow and tests/browser, which look at
-the machinery and not at the science. A test that fails is then run without the slip: it catches
-nothing unless it passes there. The exit status is 1 if a slip survives, or no longer applies.
+the machinery and not at the science, and the test of this table. A test that fails is then run
+without the slip: it catches nothing unless it passes there. The exit status is 1 if a slip survives,
+or no longer applies.
 """
 
 import argparse
@@ -29,7 +30,7 @@ import yaml
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = Path(__file__).with_suffix(".yaml")
-LEFT_OUT = ("tests/workflow", "tests/browser")
+LEFT_OUT = ("tests/workflow", "tests/browser", "tests/unit/test_mutants.py")
 NOT_COPIED = (".*", "__pycache__", "results", "logs", "benchmarks", "build", "*.egg-info")
 SECONDS = 900  # after which a run of tests is given up
 CAUGHT, SURVIVED, STALE, BROKEN = "caught", "SURVIVED", "STALE", "BROKEN"

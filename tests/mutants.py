@@ -7,8 +7,8 @@ python tests/mutants.py --sample 4 --choice 17
 Each slip of mutants.yaml is applied to a copy of the project. The tests named there run first;
 if they pass, the whole default suite does, but for tests/workflow and tests/browser, which look at
 the machinery and not at the science, and the test of this table. A test that fails is then run
-without the slip: it catches nothing unless it passes there. The exit status is 1 if a slip survives,
-or no longer applies.
+without the slip: it catches nothing unless it passes there. The exit status is 1 if a slip
+survives or no longer applies.
 """
 
 import argparse

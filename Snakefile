@@ -2,17 +2,19 @@
 #
 #   results/samples/{case}.nc               one sampler with one set of parameters
 #   results/datasets/{item}.nc              what one published item needs, with its errors
-#   results/figures/{item}.{png,svg,pdf}    its figure
-#   results/report/report.html              everything, with the verdicts
+#   results/figures/{item}.{png,svg,pdf}    its figure; .csv: the numbers behind it
+#   results/report/report.html              everything, with the verdicts; .pdf: printed
+#   results/report/runtime.html             how long the jobs took
 #
 # Each item is a target by name: `snakemake -c2 kac_fig3`.
 import shlex
 import sys
 import time
+from pathlib import Path
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import cases, console, items, plan
+from kacsim import browser, cases, console, items, labels, plan
 from kacsim.provenance import ROOT, source_hash
 
 
@@ -27,13 +29,15 @@ shell.prefix(
 )
 
 START = time.time()
-FORMATS = ("png", "svg", "pdf")
+FORMATS = ("svg", "png", "pdf", "csv")
+# Where no Chromium is installed there is no PDF to make; the run says so at its end.
+PRINTED = ["results/report/report.pdf"] if browser.find() else []
 # Messages name the last file that sets a key; those of the command line come last.
 CONFIG_FILES = sorted(
     workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml"
 )
 
-if workflow.is_main_process and not workflow.dryrun:
+if workflow.is_main_process and not workflow.output_settings.dryrun:
     console.quieten(
         logger, [str(file) for file in CONFIG_FILES[1:]], ("all", *items.NAMES)
     )
@@ -53,6 +57,8 @@ wildcard_constraints:
 rule all:
     input:
         "results/report/report.html",
+        "results/report/runtime.html",
+        PRINTED,
         expand("results/figures/{item}.{format}", item=items.NAMES, format=FORMATS),
 
 
@@ -65,3 +71,6 @@ include: "workflow/rules/report.smk"
 onsuccess:
     shell(f"kacsim times --since {START}")
     shell(f"kacsim summary --since {START}")
+    page = Path("results/report/report.html")
+    if not PRINTED and page.exists() and page.stat().st_mtime >= START:
+        print(f"results/report/report.pdf: not printed: {browser.NONE}")

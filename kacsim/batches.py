@@ -5,6 +5,10 @@ from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from kacsim.cases import time_limit
+
+SHORT = 60.0  # seconds: what a job in a queue is not worth
+
 
 @dataclass(frozen=True)
 class Batch:
@@ -31,14 +35,22 @@ class Batch:
         """Return a rank below 1000 that starts the longest batches first."""
         return round(10.0 * math.log2(max(1.0, 1e6 * self.seconds())))
 
+    def group(self):
+        """Return the group that lets a scheduler join short batches of any kind, or None."""
+        return "samples" if self.seconds() < SHORT else None
+
     def description(self):
         """Return what the job does, for one line of a log."""
         number = len(self.cases)
         return f"{self.id} ({number} case{'s' if number > 1 else ''})"
 
     def minutes(self):
-        """Return the time limit for a scheduler: ten times the expected one, and a margin."""
-        return 10 + round(10.0 * self.seconds() / 60.0)
+        """Return the time limit for a scheduler."""
+        return time_limit(self.seconds())
+
+    def megabytes(self):
+        """Return the memory to ask a scheduler for: that of the largest case."""
+        return max(case.megabytes() for case in self.cases)
 
 
 def make_batches(cases_of, batch_seconds):

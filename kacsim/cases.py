@@ -1,5 +1,6 @@
 """A case: one sampler with one set of parameters. Its id, its command line, its sources."""
 
+import dataclasses
 import hashlib
 import math
 import shlex
@@ -169,6 +170,10 @@ SAMPLER_FILES = {
 }
 # Measured: a collision, or a node of a tree, with all that belongs to it.
 WORK_SECONDS = 3e-8
+# Samplers that record runs, or are short whatever is asked: a file of theirs is drawn in one go.
+UNSHARDED = ("kac_corners", "bkw_tree", "inverse_transform", "inversion", "rejection", "identity")
+UNSHARDED += ("injection", "outer_gas", "weighted_particles")
+UNSHARDED += ("sphere_lattice", "sphere_points", "area")
 KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
 
 
@@ -182,6 +187,8 @@ class Case:
     parameters : dict, every parameter of the sampler (see `make_case`)
     n_draws, n_replicates : int, draws of each replicate, and replicates
     seed : int, not part of the id
+    shard : (k, K), the k-th of K parts of the replicates; not part of the id: the draws are those
+        of the whole case
     """
 
     sampler: str
@@ -189,6 +196,14 @@ class Case:
     n_draws: int
     n_replicates: int
     seed: int
+    shard: tuple = (1, 1)
+
+    @property
+    def replicates(self):
+        """Return the range of the replicates of this shard."""
+        number, total = self.shard
+        first, last = (k * self.n_replicates // total for k in (number - 1, number))
+        return range(first, last)
 
     @property
     def id(self):
@@ -200,8 +215,20 @@ class Case:
                 tokens.append(short + _plain(value))
         return "-".join([*tokens, f"{self.n_replicates}x{self.n_draws}"])
 
+    def split(self, number):
+        """Return the shards of the case."""
+        return [dataclasses.replace(self, shard=(k, number)) for k in range(1, number + 1)]
+
+    def whole(self):
+        """Return the case that this is a shard of."""
+        return dataclasses.replace(self, shard=(1, 1))
+
+    def title(self):
+        """Return one sentence that says what the file of the samples holds."""
+        return f"{self.n_replicates} x {self.n_draws} draws of {self.id}"
+
     def arguments(self):
-        """Return the command-line words that sample this case."""
+        """Return the command-line words that sample this case, or the shard."""
         words = [self.sampler]
         for name, value in self.parameters.items():
             if name not in DEFAULTS or value != DEFAULTS[name]:
@@ -209,16 +236,20 @@ class Case:
                 words += [flag(name), *map(str, values)]
         for name in ("n_draws", "n_replicates", "seed"):
             words += [flag(name), str(getattr(self, name))]
+        if self.shard != (1, 1):
+            words += ["--shard", "/".join(map(str, self.shard))]
         return shlex.join(words)
 
     def output(self):
-        """Return the file of the case's samples."""
-        return f"results/samples/{self.id}.nc"
+        """Return the file of the case's samples, or of the shard's."""
+        if self.shard == (1, 1):
+            return f"results/samples/{self.id}.nc"
+        return "results/shards/{}.{}of{}.nc".format(self.id, *self.shard)
 
     def seconds(self):
         """Return roughly how long the kernels take: the order of jobs, their size and limits."""
         p = self.parameters
-        draws = float(self.n_draws * self.n_replicates)
+        draws = float(self.n_draws * len(self.replicates))
         if self.sampler == "kac_equilibrium":
             work = 0.4 * p["n_particles"] ** 2 * max(1.0, -math.log10(p["tolerance"]))
         elif self.family == "techniques":
@@ -233,12 +264,28 @@ class Case:
             work = p["n_particles"] if p.get("engine") == "forward" else 6.0
         return WORK_SECONDS * draws * work
 
+    def minutes(self):
+        """Return the time limit for a scheduler."""
+        return time_limit(self.seconds())
+
+    def megabytes(self):
+        """Return the memory to ask for: 350, and 8 kB a replicate (histogram, file and buffers)."""
+        return 350 + math.ceil(0.008 * len(self.replicates))
+
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
         home = checks if hasattr(checks, self.sampler) else checks_techniques
         check = getattr(home, self.sampler)
-        return [*check(**self.parameters), *checks.amount(**size)]
+        size_problems = [*checks.amount(**size), *self._shard_problems()]
+        return [*check(**self.parameters), *size_problems]
+
+    def _shard_problems(self):
+        number, total = self.shard
+        most = 1 if self.sampler in UNSHARDED else self.n_replicates
+        if isinstance(most, int) and not 1 <= number <= total <= max(most, 1):
+            allowed = f"must be k/K with 1 <= k <= K <= {most}"
+            yield checks.Problem("shard", f"{number}/{total}", allowed)
 
     @property
     def kernel_module(self):
@@ -262,14 +309,20 @@ class Case:
         """Return everything that determines the draws, as a JSON-ready dict."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
         known = {k: v for k, v in self.parameters.items() if v is not None}
-        return {"sampler": self.sampler, **known, **size}
+        part = {} if self.shard == (1, 1) else {"shard": list(self.shard)}
+        return {"sampler": self.sampler, **known, **size, **part}
 
 
-def make_case(sampler, *, n_draws, n_replicates, seed, **parameters):
+def make_case(sampler, *, n_draws, n_replicates, seed, shard=(1, 1), **parameters):
     """Return a case with the sampler's defaults filled in."""
     names = SAMPLERS[sampler]
     complete = {name: parameters.get(name, DEFAULTS.get(name)) for name in names}
-    return Case(sampler, complete, n_draws, n_replicates, seed)
+    return Case(sampler, complete, n_draws, n_replicates, seed, shard)
+
+
+def time_limit(seconds):
+    """Return the minutes to ask a scheduler for: ten times the expected time, and a margin."""
+    return 10 + round(10.0 * seconds / 60.0)
 
 
 def flag(name):

@@ -26,6 +26,7 @@ ENGINES = ("ancestral", "forward")
 RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
 
 LARGEST = 1e50  # of any parameter: its products stay within double precision
+LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
 LONGEST_LITERAL = 10.0  # mean collision times; plain recursion has no budget
 MAX_NODES = 10_000_000  # budget of one tree of the Boltzmann paper
 BREATHING = 9.0 / 41.0  # eps of section V
@@ -156,6 +157,14 @@ def kac(
         yield from wrong
         if wrong:
             return
+    followed = min(n_particles, math.exp(min(700.0, collision_rate * time)))
+    if engine == "ancestral" and followed > LARGEST_ANCESTRY:
+        yield Problem(
+            "time",
+            time,
+            f"must be earlier: about {followed:.0e} ancestors, more than {LARGEST_ANCESTRY:.0e}",
+        )
+        return
     if algorithm in STEPPED:
         yield from _stepped(algorithm, n_particles, time, time_step, collision_rate)
     elif time_step is not None:

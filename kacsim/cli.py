@@ -2,7 +2,9 @@
 
 import argparse
 import math
+import signal
 import sys
+import threading
 
 from kacsim import cases, commands, meanings, plan
 from kacsim.checks import BudgetError
@@ -16,6 +18,11 @@ COMMANDS = {
         "draw one case",
         "sample kac --algorithm bird --n-particles 50 --time 2 --n-draws 1000000 --seed 1 "
         "--output bird.nc",
+    ),
+    "merge": (
+        "join the shards of one case",
+        "merge kac --algorithm bird --n-particles 50 --time 2 --n-draws 100 --n-replicates 4 "
+        "--seed 1 --shards 2 --output bird.nc",
     ),
     "estimate": (
         "probe a density or a fraction by trees",
@@ -34,6 +41,9 @@ COMMANDS = {
         "write the report from datasets and figures",
         "report --items kac_fig4 kac_fig5 --output report.html",
     ),
+    "print": ("print the report to PDF, by Chromium", "print"),
+    "keep": ("keep the report of a full run in reports/latest", "keep"),
+    "kept": ("say which kernels have changed since the kept report", "kept"),
     "compile": (
         "compile a module's kernels into the kernel cache",
         "compile kac/bird.py --output bird.txt",
@@ -49,6 +59,14 @@ EPILOG = """examples:
 The pipeline itself is run by `snakemake -c2 all`."""
 
 
+class Parser(argparse.ArgumentParser):
+    """Parser whose complaint is one line."""
+
+    def error(self, message):
+        """Print what is wrong and end with the status of a usage error."""
+        self.exit(USAGE_ERROR, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
 def main(argv=None):
     """Run one command; return the exit status: 0, or 2 with one sentence on stderr.
 
@@ -56,6 +74,9 @@ def main(argv=None):
     """
     from kacsim.store import StoreError
 
+    if threading.current_thread() is threading.main_thread():
+        # A job that is told to end cleans up after itself.
+        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     requests = [_parser(words).parse_args(words) for words in _split(argv)]
     try:
         if len(requests) > 1:
@@ -83,7 +104,7 @@ def _split(argv):
 def _parser(words=()):
     """Return the parser; that of the estimators, which need the compiler, only if it is called."""
     form = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="kacsim",
         description="Reproducible Monte Carlo experiments on gases.",
         epilog=EPILOG,
@@ -98,13 +119,19 @@ def _parser(words=()):
         )
         parts[name].set_defaults(run=getattr(commands, f"run_{name}"))
     _add_configured(parts["plan"], parts["verify"])
-    _add_sample(parts["sample"])
+    for one in _add_sampling(parts["sample"]):
+        one.add_argument("--shard", type=_shard, default=(1, 1), help="k/K: these replicates only")
+    for one in _add_sampling(parts["merge"]):
+        one.add_argument("--shards", type=_shards, required=True, dest="shard", help="how many")
+        one.add_argument("--folder", default="results/shards", help="where they lie")
     if list(words[:1]) == ["estimate"]:
         from kacsim import estimating
 
         estimating.add_parsers(parts["estimate"])
     _add_stages(parts["reduce"], parts["draw"], parts["report"], parts["compile"])
+    _add_pages(parts["print"], parts["keep"], parts["kept"])
     parts["times"].add_argument("--folder", default=".", help="where benchmarks and logs lie")
+    parts["times"].add_argument("--output", metavar="FILE", help="write a page of all jobs instead")
     parts["summary"].add_argument("--report", default="results/report/report.html", metavar="FILE")
     parts["summary"].add_argument("--datasets", default="results/datasets", metavar="FOLDER")
     for one in (parts["times"], parts["summary"]):
@@ -131,16 +158,27 @@ def _add_stages(reducing, drawing, reporting, compiling):
     reducing.add_argument("--output", required=True)
     drawing.add_argument("item")
     drawing.add_argument("--dataset", required=True)
-    drawing.add_argument("--output", required=True, nargs="+", help="files ending in png, svg, pdf")
+    drawing.add_argument("--output", required=True, nargs="+", help="png, svg, pdf or csv files")
     reporting.add_argument("--datasets", default="results/datasets", metavar="FOLDER")
     reporting.add_argument("--figures", default="results/figures", metavar="FOLDER")
     reporting.add_argument("--items", nargs="+", required=True)
     reporting.add_argument("--output", required=True)
+    reporting.add_argument("--recipe", default="snakemake -c2", help="what the page says to run")
     compiling.add_argument("module", choices=cases.KERNEL_MODULES)
     compiling.add_argument("--output", required=True, help="file that gets the sources' hash")
 
 
-def _add_sample(parent):
+def _add_pages(printing, keeping, asking):
+    printing.add_argument("--report", default="results/report/report.html", metavar="FILE")
+    printing.add_argument("--output", default="results/report/report.pdf", metavar="FILE")
+    keeping.add_argument("--results", default="results", metavar="FOLDER")
+    keeping.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
+    for one in (keeping, asking):
+        one.add_argument("--folder", default="reports/latest", help="where the report is kept")
+
+
+def _add_sampling(parent):
+    """Add the samplers to a command on one case; yield the parser of each."""
     samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
     for sampler, names in cases.SAMPLERS.items():
         text = meanings.DRAWS[sampler]
@@ -160,6 +198,7 @@ def _add_sample(parent):
         one.add_argument("--n-replicates", type=_integer, default=1, help="default 1")
         one.add_argument("--seed", type=_integer, required=True)
         one.add_argument("--output", required=True, help="NetCDF file")
+        yield one
 
 
 def _value(name):
@@ -176,6 +215,19 @@ def _integer(text):
         return int(text)
     except ValueError:
         return text
+
+
+def _shard(text):
+    """Return k/K as two integers; whether they are a shard of the case is checked later."""
+    try:
+        number, total = map(int, text.split("/"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: must be k/K, two integers") from None
+    return number, total
+
+
+def _shards(text):
+    return _shard(f"1/{text}")
 
 
 def _count(text):

@@ -72,18 +72,27 @@ def run_sample_all(requests):
         variables = sampling.run(case, line)
         line.end()
         print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
-        title = f"{case.n_replicates} x {case.n_draws} draws of {case.id}"
-        store.write(variables, arguments.output, title=title, settings=case.settings())
+        store.write_sample(variables, arguments.output, case)
     return 0
 
 
+def run_merge(arguments):
+    """Join the shards of one case."""
+    parts = _case_of(arguments).split(arguments.shard[1])
+    from kacsim import shards, store
+
+    store.check_writable(arguments.output)
+    case, variables = parts[0].whole(), shards.merged(parts, arguments.folder)
+    store.write_sample(variables, arguments.output, case)
+
+
 def _case_of(arguments):
-    """Return the case that the flags of `sample` describe."""
+    """Return the case that the flags of `sample` or `merge` describe."""
     names = cases.SAMPLERS[arguments.sampler]
     given = {name: getattr(arguments, name) for name in names}
     given = {name: value for name, value in given.items() if value is not None}
     size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}
-    case = cases.make_case(arguments.sampler, **given, **size)
+    case = cases.make_case(arguments.sampler, **given, **size, shard=arguments.shard)
     problems = [Problem(cases.flag(p.name), p.value, p.allowed) for p in case.problems()]
     if problems:
         raise plan.PlanError("\n".join(map(str, problems)))
@@ -106,25 +115,33 @@ def run_reduce(arguments):
         raise plan.PlanError(
             f"--settings = {arguments.settings!r}: is not JSON: {error}"
         ) from error
-    from kacsim import items, store
+    from kacsim import items, provenance, store
 
     module = items.load(arguments.item)
     wanted = module.cases(settings)
     folder = Path(arguments.samples)
     samples = {case.id: store.read_sample(folder / f"{case.id}.nc", case) for case in wanted}
     dataset = items.reduced(arguments.item, samples, settings)
-    title = module.__doc__.splitlines()[0]
-    store.write(dataset, arguments.output, title=title, settings=settings)
+    about = {
+        "title": module.__doc__.splitlines()[0],
+        "settings": settings,
+        "code": provenance.source_hash(*plan.reduce_sources(arguments.item)),
+    }
+    store.write(dataset.assign_attrs(item=arguments.item), arguments.output, **about)
 
 
 def run_draw(arguments):
-    """Draw the figure of an item."""
+    """Draw the figure of an item, and write the numbers behind it."""
     _known_item(arguments.item)
-    from kacsim import items, plotting, store
+    from kacsim import csv_table, items, plotting, store
 
-    figure = items.load(arguments.item).draw(store.read(arguments.dataset))
+    dataset = store.read_dataset(arguments.dataset, arguments.item)
+    figure = items.load(arguments.item).draw(dataset)
     for path in arguments.output:
-        plotting.save(figure, path)
+        if path.endswith(".csv"):
+            csv_table.write(dataset, path)
+        else:
+            plotting.save(figure, path)
 
 
 def run_report(arguments):
@@ -133,7 +150,30 @@ def run_report(arguments):
 
     for name in arguments.items:
         _known_item(name)
-    report.write(arguments.items, arguments.datasets, arguments.figures, arguments.output)
+    folders = arguments.datasets, arguments.figures
+    report.write(arguments.items, *folders, arguments.output, arguments.recipe)
+
+
+def run_print(arguments):
+    """Print the report."""
+    from kacsim import printing
+
+    printing.write(arguments.report, arguments.output)
+
+
+def run_keep(arguments):
+    """Keep the report of a full run."""
+    from kacsim import kept
+
+    checked = plan.Plan(plan.read_config(*arguments.config), arguments.config)
+    print(kept.keep(arguments.results, checked.settings, arguments.folder))
+
+
+def run_kept(arguments):
+    """Say which kernels have changed since."""
+    from kacsim import kept
+
+    print(kept.sentence(arguments.folder))
 
 
 def run_compile(arguments):
@@ -146,10 +186,13 @@ def run_compile(arguments):
 
 
 def run_times(arguments):
-    """Print where the time of a run went."""
+    """Print where the time of a run went, or write the page of it."""
     from kacsim import times
 
-    print(times.table(arguments.folder, arguments.since))
+    if arguments.output:
+        times.write(arguments.output, arguments.folder)
+    else:
+        print(times.table(arguments.folder, arguments.since))
 
 
 def run_summary(arguments):

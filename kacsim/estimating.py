@@ -21,6 +21,7 @@ ESTIMATORS = {
         "the fraction of matter beyond a radius, Algorithm 7",
     ),
 }
+LIMIT = 0.05  # of the largest realization's share, above which the bars are not believed
 WHOLE = {"n_realizations", "seed", "max_nodes"}
 DEFAULTS = {"n_realizations": 10_000, "seed": 1}
 
@@ -80,3 +81,6 @@ def run(arguments):
         return
     print(f"{text}: {found.mean:.6g} ± {found.standard_error:.2g}")
     print(f"{found.n_realizations} realizations, mean recursion {found.mean_recursion:.4g}")
+    if found.largest_share > LIMIT:
+        share = f"{100 * found.largest_share:.0f} %"
+        print(f"one realization makes {share} of the sum: the error cannot be believed")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numba
 
+from kacsim import kernel_cache
 from kacsim.provenance import PACKAGE, source_hash, versions
 
 # Sources that kernels of all modules call; a folder's model.py is called by its other modules.
@@ -47,7 +48,9 @@ def kernel(function):
     """
     module = Path(function.__code__.co_filename).relative_to(PACKAGE).as_posix()
     numba.config.CACHE_DIR = str(cache_folder(module))
-    return numba.njit(cache=True, error_model="numpy")(function)
+    compiled = numba.njit(cache=True, error_model="numpy")(function)
+    kernel_cache.watch(compiled)
+    return compiled
 
 
 # Called from kernels: forced inlining spares an atomic reference count of the stream per call.

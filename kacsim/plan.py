@@ -6,6 +6,7 @@ Nothing heavy is imported here: Snakemake reads the plan at every start.
 import json
 import math
 import os
+import shlex
 from pathlib import Path
 
 import yaml
@@ -13,6 +14,7 @@ import yaml
 from kacsim import items
 from kacsim.batches import make_batches
 from kacsim.provenance import ROOT
+from kacsim.shards import make_shards
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml")
@@ -45,7 +47,8 @@ def reduce_sources(name):
 def draw_sources(name):
     """Return the package's files that an item's figure depends on."""
     exact = "kac/exact.py", "boltzmann/bkw.py", "techniques/exact.py", "techniques/flux.py"
-    return f"items/{name}.py", *_shared_items(), "plotting.py", *exact
+    own = f"items/{name}.py", *_shared_items(), "plotting.py", "csv_table.py"
+    return (*own, *exact)
 
 
 def read_config(*paths):
@@ -115,7 +118,12 @@ class Plan:
             problems += self._edge_problems(name)
         self._refuse(problems)
         self.cases = {case.id: case for cases in self.cases_of.values() for case in cases}
-        self.batches = make_batches(self.cases_of, self.config["batch_seconds"])
+        self.shards = make_shards(self.cases.values(), self.config["shard_seconds"])
+        whole = {
+            name: [case for case in cases if case.id not in self.shards]
+            for name, cases in self.cases_of.items()
+        }
+        self.batches = make_batches(whole, self.config["batch_seconds"])
 
     def _settings_of(self, name):
         common = {key: self.config[key] for key in COMMON}
@@ -184,9 +192,14 @@ class Plan:
                 return file
         return self.files[0]
 
+    def shard(self, wildcards):
+        """Return the case that draws one shard, from the ``case`` and ``number`` of its file."""
+        return self.shards[wildcards.case][int(wildcards.number) - 1]
+
     def table(self, chosen):
         """Return a table of cases: the job that draws each, draws, expected seconds and items."""
         job_of = {case.id: batch.id for batch in self.batches for case in batch.cases}
+        job_of |= {name: f"{len(parts)} shards of {name}" for name, parts in self.shards.items()}
         items_of = {}
         for name, cases in self.cases_of.items():
             for case in cases:
@@ -210,6 +223,24 @@ class Plan:
     def settings_json(self, name):
         """Return an item's settings as JSON: the argument of the later stages."""
         return json.dumps(self.settings[name], sort_keys=True)
+
+
+def recipe(files, values):
+    """Return the start of the command that runs the workflow again with this configuration.
+
+    Parameters
+    ----------
+    files : configuration files beside the default one
+    values : key -> value of ``--config``
+    """
+    words = ["snakemake", "-c2"]
+    if files:
+        near = [Path(file).absolute() for file in files]
+        words += ["--configfile"]
+        words += [str(f.relative_to(ROOT) if f.is_relative_to(ROOT) else f) for f in near]
+    if values:
+        words += ["--config", *(f"{key}={value}" for key, value in sorted(values.items()))]
+    return shlex.join(words)
 
 
 MISSING = object()

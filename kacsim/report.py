@@ -23,16 +23,35 @@ from kacsim import store
 from kacsim.items import published
 from kacsim.items._lazy import bkw
 from kacsim.provenance import ROOT
+from kacsim.report_numbers import (
+    FIXED_SPACE,
+    beside,
+    bound,
+    fixed,
+    listed,
+    measured,
+    number,
+    pm,
+    power,
+    printed,
+    typeset,
+)
 
 TEXTS = ROOT / "reports"
 SIGNS = {"reproduced": "✓", "corrected": "↻", "not reproduced": "✗", "undecided": "?"}
 FORMATS = ("svg", "png", "pdf")  # every figure is drawn in all of them
-THIN_SPACE, FIXED_SPACE, MINUS = "\u202f", "\u00a0", "\u2212"
-SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+RECIPE = "snakemake -c2"
 
 
-def write(items, datasets_folder, figures_folder, output):
+def write(items, datasets_folder, figures_folder, output, recipe=RECIPE):
     """Write the report of some items, in the given order, to the file `output`.
+
+    Parameters
+    ----------
+    items : names, in the order of the page
+    datasets_folder, figures_folder : where their files lie
+    output : file to create or replace
+    recipe : what makes the results again, followed by the name of an item or by ``all``
 
     Raises
     ------
@@ -41,9 +60,9 @@ def write(items, datasets_folder, figures_folder, output):
     """
     paths = {name: Path(datasets_folder) / f"{name}.nc" for name in items}
     datasets = {name: store.read(path) for name, path in paths.items()}
-    env, folder = _environment(), Path(output).parent
+    env, folder = environment(), Path(output).parent
     claims = _claims(datasets.values(), published())
-    captions = yaml.safe_load(_text(TEXTS / "captions.yaml"))
+    captions = yaml.safe_load(read_text(TEXTS / "captions.yaml"))
     shown = []
     for name in items:
         if name not in captions:
@@ -53,10 +72,11 @@ def write(items, datasets_folder, figures_folder, output):
         item["claims"] = [row for row in claims.values() if row["item"] == name]
         item["dataset_link"] = _link(paths[name], folder)
         item["links"] = {f: _link(figure.with_suffix(f".{f}"), folder) for f in FORMATS}
+        item["numbers_link"] = _link(figure.with_suffix(".csv"), folder)
         shown.append(item)
     verdicts = [row["verdict"] for row in claims.values()]
     html = env.get_template("report.html.j2").render(
-        style=Markup(_text(TEXTS / "style.css")),
+        style=Markup(read_text(TEXTS / "style.css")),
         texts=_texts(env, datasets, claims, shown),
         items=shown,
         claims=claims,
@@ -65,11 +85,17 @@ def write(items, datasets_folder, figures_folder, output):
         sources=sorted({dataset.attrs["source"] for dataset in datasets.values()}),
         seeds=sorted({dataset.attrs["settings"]["seed"] for dataset in datasets.values()}),
         configuration=_configuration(datasets),
+        recipe=recipe,
     )
     store.replace_file(output, lambda name: Path(name).write_text(html, encoding="utf-8"))
 
 
-def _environment():
+def without_files(html):
+    """Return the page without its links to other files: for a copy that stands alone."""
+    return re.sub(r'<a href="(?!#)[^"]*">(.*?)</a>', r"\1", html, flags=re.S)
+
+
+def environment():
     """Return the template environment: escaping everything, refusing unknown names."""
     loader, undefined = jinja2.FileSystemLoader(TEXTS), jinja2.StrictUndefined
     trim = {"trim_blocks": True, "lstrip_blocks": True}
@@ -80,12 +106,12 @@ def _environment():
 
 
 def _rendered(env, text, **words):
-    """Return a text with its expressions filled in; formulas do not break at their equals sign."""
-    unbroken = env.from_string(text).render(words).replace(" = ", f"{FIXED_SPACE}={FIXED_SPACE}")
-    return Markup(unbroken.strip())
+    """Return a text with its expressions filled in."""
+    return Markup(bound(env.from_string(text).render(words)).strip())
 
 
-def _text(path):
+def read_text(path):
+    """Return the text of a file; StoreError names one that cannot be read."""
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -106,63 +132,6 @@ def _configuration(datasets):
     return re.sub(r"\[[^]]*\]", lambda found: " ".join(found[0].split()), text)
 
 
-# Numbers as text
-
-
-def number(value, digits=6):
-    """Return a number as text: grouped thousands, true minus sign, powers of ten raised."""
-    value = float(value)
-    if not math.isfinite(value):
-        return "not a number" if math.isnan(value) else f"{MINUS * (value < 0)}∞"
-    if value == round(value) and abs(value) < 1e15:
-        return fixed(value, 0)
-    if 1e-4 <= abs(value) < 1e15:
-        text = fixed(value, max(0, digits - 1 - math.floor(math.log10(abs(value)))))
-        return text.rstrip("0").rstrip(".") if "." in text else text
-    mantissa, exponent = f"{value:.1e}".replace("-", MINUS, value < 0).split("e")
-    factor = "" if mantissa == "1.0" else f"{mantissa.removesuffix('.0')}·"
-    return factor + _power(int(exponent))
-
-
-def fixed(value, decimals):
-    """Return a number with a fixed count of decimals."""
-    text = f"{value:,.{decimals}f}" if abs(value) >= 1e4 else f"{value:.{decimals}f}"
-    return text.replace(",", THIN_SPACE).replace("-", MINUS)
-
-
-def _power(exponent):
-    return f"10{str(exponent).translate(SUPERSCRIPT)}"
-
-
-def listed(values):
-    """Return numbers or words as a list in words: 1, 2 and 3."""
-    words = [value if isinstance(value, str) else number(value) for value in values]
-    return " and ".join(filter(None, [", ".join(words[:-1]), *words[-1:]])) or "none"
-
-
-def _decimals(error):
-    """Return the decimals that show two digits of an error."""
-    return max(0, 1 - math.floor(math.log10(error)))
-
-
-def pm(value, error):
-    """Return an estimate as text, with two digits of its standard error if it has one."""
-    value, error = float(value), float(error)
-    if not error > 0:
-        return number(value, 4)
-    if (size := max(abs(value), error)) < 1e-3:
-        power = math.floor(math.log10(size))
-        return f"({pm(value / 10.0**power, error / 10.0**power)})·{_power(power)}"
-    return f"{fixed(value, _decimals(error))} ± {fixed(error, _decimals(error))}"
-
-
-def measured(dataset, name, **place):
-    """Return a variable with its error as text, at a place and the published bin width."""
-    here = dataset.isel(bin_width=0) if "bin_width" in dataset.dims else dataset
-    here = here.sel(**place)
-    return pm(here[name], here[f"{name}_error"])
-
-
 # Claims
 
 
@@ -181,13 +150,13 @@ def _claims(datasets, entries):
 def _worded(row, entry):
     """Return a claim's published entry, and the texts of its numbers."""
     error = row["standard_error"] or row["published_error"]
-    same = functools.partial(fixed, decimals=_decimals(error)) if error > 0 else number
+    same = functools.partial(beside, error=error)
     value, z, p = entry["value"], row["z"], row["adjusted_p_value"]
     implied = value is None
-    reference = same(row["reference"]) if implied else _printed(value, row["published_error"])
+    reference = same(row["reference"]) if implied else printed(value, row["published_error"])
     return {
         "item": entry["item"],
-        "words": entry["text"],
+        "words": bound(entry["text"]),
         "source": entry["source"].replace(" ", FIXED_SPACE).replace(f",{FIXED_SPACE}", ", "),
         "implied": implied,
         "reference_text": f"> {reference}" if row["kind"] == "effect" else reference,
@@ -195,23 +164,9 @@ def _worded(row, entry):
         "corrected_text": "" if math.isnan(row["corrected"]) else same(row["corrected"]),
         "exact": not error > 0,
         "z_text": "+" * (z > 0) + fixed(z, 0 if abs(z) >= 100 else 1),
-        "p_text": f"p < {_power(-300)}" if p < 1e-300 else f"p = {number(p, 2 if p < 0.1 else 3)}",
-        "evidence": _set(row["evidence"]),
+        "p_text": f"p < {power(-300)}" if p < 1e-300 else f"p = {number(p, 2 if p < 0.1 else 3)}",
+        "evidence": bound(typeset(row["evidence"])),
     }
-
-
-def _set(text):
-    """Return a sentence with true minus signs and raised powers of ten."""
-    text = re.sub(r"(?<=\d)e([+-]\d+)\b", lambda found: f"·{_power(int(found[1]))}", text)
-    return re.sub(r"(?<=[\s=(])-(?=\d)", MINUS, text)
-
-
-def _printed(value, error):
-    """Return a published number with its own digits, and its error, if known, with as many."""
-    if not error > 0:
-        return number(value)
-    places = max(len(str(value).partition(".")[2]), -math.floor(math.log10(error)))
-    return f"{number(value)} ± {fixed(error, places)}"
 
 
 # Items and texts
@@ -257,7 +212,7 @@ def _tvn_table(dataset):
 def _texts(env, datasets, claims, shown):
     """Return the texts that have items on the page, each with its items and its known errors."""
     found = []
-    for key, text in yaml.safe_load(_text(TEXTS / "errata.yaml")).items():
+    for key, text in yaml.safe_load(read_text(TEXTS / "errata.yaml")).items():
         own = [item for item in shown if item["name"].partition("_")[0] == key]
         errors = []
         for error in text["errors"] if own else ():
@@ -277,7 +232,7 @@ def inline_svg(path, prefix, label):
     style sheet, which would rule the whole page, are left out.
     """
     try:
-        root = ElementTree.fromstring(_text(path))
+        root = ElementTree.fromstring(read_text(path))
     except ElementTree.ParseError as error:
         raise store.StoreError(f"{path}: is not SVG: {error}; draw it again") from error
     for element in list(root.iter()):

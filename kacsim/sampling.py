@@ -11,7 +11,7 @@ def run(case, progress=None):
 
     Parameters
     ----------
-    case : kacsim.cases.Case, already checked
+    case : kacsim.cases.Case, already checked; of a shard only its replicates are drawn
     progress : callable(draws done), called now and then
 
     Returns

@@ -5,6 +5,8 @@ attribute holds a time, so that the same result has the same bytes.
 """
 
 import errno
+import glob
+import hashlib
 import json
 import os
 import tempfile
@@ -32,6 +34,8 @@ def replace_file(path, write):
     temporary = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        for left in path.parent.glob(f".{glob.escape(path.stem)}-????????{path.suffix}"):
+            left.unlink()  # of a job that was killed
         handle, temporary = tempfile.mkstemp(
             dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix
         )
@@ -53,8 +57,8 @@ def _umask():
     return mask
 
 
-def write(content, path, *, title, settings):
-    """Write a dataset with its provenance.
+def write(content, path, *, title, settings, code=""):
+    """Write a dataset with its provenance and a checksum of everything in it.
 
     Parameters
     ----------
@@ -62,6 +66,7 @@ def write(content, path, *, title, settings):
     path : file to create or replace
     title : one sentence that says what the file holds
     settings : dict, everything the content was made from; stored as JSON
+    code : hash of the sources that made it
     """
     variables, attributes = content, {}
     if hasattr(content, "variables"):
@@ -72,8 +77,35 @@ def write(content, path, *, title, settings):
         "title": title,
         "source": f"kacsim {__version__}, commit {provenance.commit()}, {provenance.versions()}",
         "settings": json.dumps(settings, sort_keys=True),
+        "code": code,
     }
+    attributes["checksum"] = _checksum(variables, attributes)
     replace_file(path, lambda name: _write_netcdf(name, variables, attributes))
+
+
+def write_sample(variables, path, case):
+    """Write the samples of a case, or of a shard, with what `read_sample` will check."""
+    code = provenance.source_hash(*case.sources())
+    write(variables, path, title=case.title(), settings=case.settings(), code=code)
+
+
+def _checksum(variables, attributes):
+    """Return the hash of names, values and attributes: a file with flipped bits fails it."""
+    digest = hashlib.sha256(json.dumps(attributes, sort_keys=True).encode())
+    for name, (dims, values, described_as) in sorted(variables.items()):
+        values = np.asarray(values)
+        if values.dtype.kind in "OUT":
+            values = np.array(json.dumps(values.tolist()), dtype=str)
+        about = [
+            name,
+            list(dims),
+            list(values.shape),
+            values.dtype.str,
+            sorted(described_as.items()),
+        ]
+        digest.update(json.dumps(about).encode())
+        digest.update(np.ascontiguousarray(values).tobytes())
+    return digest.hexdigest()
 
 
 def _plain(value):
@@ -110,8 +142,12 @@ def read(path):
 
     path = Path(path)
     try:
-        with xr.open_dataset(path, engine="netcdf4") as dataset:
+        with xr.open_dataset(path, engine="netcdf4", decode_cf=False) as dataset:
             content = dataset.load()
+        variables = {name: (v.dims, v.values, v.attrs) for name, v in content.variables.items()}
+        kept = content.attrs.pop("checksum")
+        if kept != _checksum(variables, content.attrs):
+            raise ValueError("the checksum does not fit the content")
         for name in ("settings", "published"):
             if name in content.attrs or name == "settings":
                 content.attrs[name] = json.loads(content.attrs[name])
@@ -122,7 +158,7 @@ def read(path):
 
 
 def read_sample(path, case):
-    """Return the samples of a case, refused if they were drawn with other settings.
+    """Return the samples of a case, refused if drawn with other settings or by other code.
 
     Raises
     ------
@@ -136,7 +172,39 @@ def read_sample(path, case):
         raise StoreError(
             f"{path}: drawn with other {', '.join(keys)}; remove it and run snakemake again"
         )
+    if content.attrs["code"] != provenance.source_hash(*case.sources()):
+        raise StoreError(f"{path}: drawn by other code; run snakemake to draw it again")
     return content
+
+
+def read_dataset(path, item):
+    """Return the dataset of an item, refused if it is another's.
+
+    Raises
+    ------
+    StoreError
+        Names the file and the item that it holds.
+    """
+    content = read(path)
+    if content.attrs.get("item", item) != item:
+        raise StoreError(
+            f"{path}: holds {content.attrs['item']}, not {item}; remove it and run snakemake again"
+        )
+    return content
+
+
+def read_variables(path, case):
+    """Return the samples of a case as `write` was given them: xarray changes their order.
+
+    Raises
+    ------
+    StoreError
+        As `read_sample`.
+    """
+    content = read_sample(path, case)
+    with netCDF4.Dataset(path) as file:
+        names = list(file.variables)
+    return {name: (content[name].dims, content[name].values, content[name].attrs) for name in names}
 
 
 def check_writable(path):

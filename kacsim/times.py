@@ -1,16 +1,18 @@
 """Where the time of a run went: jobs and kernels, stage by stage, from logs and benchmarks."""
 
 import csv
+import os
+import platform
 import re
 from pathlib import Path
 
-STAGES = ("compile", "sample", "reduce", "draw", "report")
+STAGES = ("compile", "sample", "reduce", "draw", "report", "print")
 DRAWN = re.compile(r"^drew .* in ([0-9.]+) s$", re.MULTILINE)
 
 
 def drawn_sentence(case, seconds):
     """Return the line that a sampler leaves in its log."""
-    return f"drew {case.n_draws * case.n_replicates} values of {case.id} in {seconds:.3f} s"
+    return f"drew {case.n_draws * len(case.replicates)} values of {case.id} in {seconds:.3f} s"
 
 
 def _job_seconds(file):
@@ -48,8 +50,34 @@ def table(folder=".", since=0.0):
     lines = [f"{'stage':10}{'jobs':>6}{'seconds':>10}{'in kernels':>12}"]
     everything = [job for jobs in stages.values() for job in jobs]
     for stage, jobs in [*stages.items(), ("all", everything)]:
-        seconds, kernels = sum(job[1] for job in jobs), sum(job[2] for job in jobs)
+        seconds, kernels = _total(jobs, 1), _total(jobs, 2)
         lines.append(f"{stage:10}{len(jobs):6}{seconds:10.1f}{kernels:12.1f}")
     for job, seconds, _ in sorted(everything, key=lambda job: -job[1])[:5]:
         lines.append(f"  {seconds:8.1f} s  {job}")
     return "\n".join(lines)
+
+
+def write(output, folder="."):
+    """Write the page of run times of all jobs, each at its last run."""
+    from markupsafe import Markup
+
+    from kacsim import report, report_numbers, store
+
+    stages = collect(folder)
+    everything = {"all": [job for jobs in stages.values() for job in jobs]} if stages else {}
+    rows = [
+        {"name": name, "jobs": jobs, "seconds": _total(jobs, 1), "kernels": _total(jobs, 2)}
+        for name, jobs in [*stages.items(), *everything.items()]
+    ]
+    template = report.environment().get_template("runtime.html.j2")
+    html = template.render(
+        stages=rows,
+        fixed=report_numbers.fixed,
+        machine=f"{platform.system()}, {platform.machine()}, {os.cpu_count()} cores",
+        style=Markup(report.read_text(report.TEXTS / "style.css")),
+    )
+    store.replace_file(output, lambda name: Path(name).write_text(html, encoding="utf-8"))
+
+
+def _total(jobs, column):
+    return sum(job[column] for job in jobs)

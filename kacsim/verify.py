@@ -30,16 +30,14 @@ def verify(case, folder, progress=None):
     case : Case
     folder : where the samples lie
     progress : callable(draws done)
-
-    Raises
-    ------
-    StoreError
-        If the file cannot be read, or was drawn with other settings.
     """
     path = Path(folder) / f"{case.id}.nc"
     if not path.exists():
         return MISSING, f"{path}: not there; run snakemake to draw it"
-    kept = store.read_sample(path, case)
+    try:
+        kept = store.read_sample(path, case)
+    except store.StoreError as error:
+        return DIFFERENT, str(error)
     drawn = sampling.run(case, progress or (lambda done: None))
     wrong = [name for name in kept.variables if name not in drawn]
     for name, (_, values, _) in drawn.items():

@@ -31,7 +31,7 @@ import yaml
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = Path(__file__).with_suffix(".yaml")
 LEFT_OUT = ("tests/workflow", "tests/browser", "tests/unit/test_mutants.py")
-NOT_COPIED = (".*", "__pycache__", "results", "logs", "benchmarks", "build", "*.egg-info")
+NOT_COPIED = (".git", ".venv", ".snakemake", ".*_cache", "__pycache__", "results", "logs")
 SECONDS = 900  # after which a run of tests is given up
 CAUGHT, SURVIVED, STALE, BROKEN = "caught", "SURVIVED", "STALE", "BROKEN"
 
@@ -100,8 +100,9 @@ class Copy:
             "PYTHONDONTWRITEBYTECODE": "1",
             "COLUMNS": "400",
         }
-        # The seeds that the tests are known to pass with.
-        self.environment.pop("KACSIM_TEST_SEED", None)
+        # The seeds and the results that the tests are known to pass with.
+        for name in ("KACSIM_TEST_SEED", "KACSIM_TEST_RESULTS"):
+            self.environment.pop(name, None)
 
     def failing(self, *words, first=True):
         """Run pytest; return (exit status, tests that failed, the end of what it said)."""

@@ -10,6 +10,7 @@ from kacsim.boltzmann import bkw, bkw_tree, null_collisions
 from kacsim.streams import new_stream
 
 CHUNK = 8192
+SMALLEST = float(np.finfo(float).tiny)
 MAX_NODES = checks.MAX_NODES
 BudgetError = checks.BudgetError
 
@@ -24,6 +25,7 @@ class Estimate:
     variance : of one realization; estimates nothing finite where the exact one is infinite
     mean_recursion : mean number of t' drawings of one realization
     n_realizations : int
+    largest_share : share of the largest realization in the sum; near 1 the bars say nothing
     """
 
     mean: float
@@ -31,6 +33,7 @@ class Estimate:
     variance: float
     mean_recursion: float
     n_realizations: int
+    largest_share: float
 
 
 def chunks(draw, n_realizations, stream):
@@ -58,13 +61,16 @@ def chunks(draw, n_realizations, stream):
 
 def estimate_from(draw, factor, n_realizations, seed, name):
     """Return the Estimate of factor times the drawn values."""
-    total, square, nodes = 0.0, 0.0, 0
+    total, square, largest, nodes = 0.0, 0.0, 0.0, 0
     for values, counts in chunks(draw, n_realizations, new_stream(seed, name)):
         total += values.sum()
         square += (values * values).sum()
+        largest = max(largest, float(np.abs(values).max()))
         nodes += int(counts.sum())
     mean = total / n_realizations
-    if not math.isfinite(factor * mean):
+    # A product below the smallest normal number has lost its digits, a factor of 0 everything.
+    lost = factor == 0.0 or (mean != 0.0 and abs(factor * mean) < SMALLEST)
+    if lost or not math.isfinite(factor * mean):
         raise ValueError("the probe lies where double precision holds no value: bring it nearer")
     spread = max(0.0, square - n_realizations * mean * mean) / (n_realizations - 1)
     return Estimate(
@@ -73,6 +79,7 @@ def estimate_from(draw, factor, n_realizations, seed, name):
         variance=float(factor * factor * spread),
         mean_recursion=nodes / n_realizations,
         n_realizations=n_realizations,
+        largest_share=largest / abs(total) if total else 0.0,
     )
 
 

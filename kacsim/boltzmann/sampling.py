@@ -117,19 +117,20 @@ def sample(case, progress):
     p = case.parameters
     axis, bind = PROBES[case.sampler]
     shape = (len(p[axis]), len(p["time"]))
-    sums = np.zeros((4, *shape, case.n_replicates))
-    n_top = min(TOP, case.n_draws * case.n_replicates)
+    rows = len(case.replicates)
+    sums = np.zeros((4, *shape, rows))
+    n_top = min(TOP, case.n_draws * rows)
     top = np.full((*shape, n_top), -np.inf)
     done = 0
     for i, first in enumerate(p[axis]):
         for j, time in enumerate(p["time"]):
             draw = bind(p, first, time)
-            for replicate in range(case.n_replicates):
+            for row, replicate in enumerate(case.replicates):
                 stream = new_stream(case.seed, f"{case.id} probe {i} {j}", replicate)
-                place = (slice(None), i, j, replicate)
+                place = (slice(None), i, j, row)
                 for values, nodes in chunks(draw, case.n_draws, stream):
                     sums[place] += values.sum(), (values * values).sum(), 0.0, nodes.sum()
-                    sums[2, i, j, replicate] = max(sums[2, i, j, replicate], values.max())
+                    sums[2, i, j, row] = max(sums[2, i, j, row], values.max())
                     top[i, j] = np.partition(np.append(top[i, j], values), -n_top)[-n_top:]
                     done += values.size
                     progress(done)
@@ -147,10 +148,13 @@ def sample(case, progress):
     return variables | {
         axis: described(np.array(p[axis], dtype=float), (axis,), axis),
         "time": described(np.array(p["time"], dtype=float), ("time",), "time"),
-        "top": described(
-            np.sort(top, axis=-1)[..., ::-1], (axis, "time", "rank"), "largest realizations"
-        ),
+        "top": described(descending(top), (axis, "time", "rank"), "largest realizations"),
     }
+
+
+def descending(values):
+    """Return values sorted along the last axis, largest first; zeros have no sign."""
+    return np.sort(values + 0.0, axis=-1)[..., ::-1]
 
 
 RECORDED_NODES = 64  # larger trees are not recorded

@@ -53,22 +53,21 @@ def accumulate(values, counts, sums, kept, n_kept, keep_above):
 
 
 def _velocity_sums(case, fill, progress):
-    """Stream all replicates through `fill(velocities, replicate, stream)`; return variables."""
+    """Stream all replicates through `fill(velocities, row, stream)`; return variables."""
     p = case.parameters
-    counts = np.zeros((case.n_replicates, FINE_BINS + 2), np.int64)
-    sums = np.zeros((case.n_replicates, len(ORDERS)))
+    rows = len(case.replicates)
+    counts = np.zeros((rows, FINE_BINS + 2), np.int64)
+    sums = np.zeros((rows, len(ORDERS)))
     keep_above = p.get("keep_above")
-    kept = np.empty(min(KEPT, case.n_draws * case.n_replicates))
+    kept = np.empty(min(KEPT, case.n_draws * rows))
     n_kept, done = 0, 0
-    for replicate in range(case.n_replicates):
+    for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
         for start in range(0, case.n_draws, CHUNK):
             velocities = np.empty(min(CHUNK, case.n_draws - start))
-            fill(velocities, replicate, stream)
+            fill(velocities, row, stream)
             threshold = -math.inf if keep_above is None else keep_above
-            n_kept = accumulate(
-                velocities, counts[replicate], sums[replicate], kept, n_kept, threshold
-            )
+            n_kept = accumulate(velocities, counts[row], sums[row], kept, n_kept, threshold)
             done += velocities.size
             progress(done)
     sums /= case.n_draws
@@ -92,13 +91,14 @@ def sample_kac(case, progress):
     collisions and own_collisions[replicate] (means per draw), own_variance[replicate]
     """
     draw_kernel, arguments = draws.kernel_of(case.parameters)
-    collisions = np.zeros(case.n_replicates)
-    own_sums = np.zeros((2, case.n_replicates))
+    rows = len(case.replicates)
+    collisions = np.zeros(rows)
+    own_sums = np.zeros((2, rows))
 
-    def fill(velocities, replicate, stream):
+    def fill(velocities, row, stream):
         own = np.empty(velocities.size, np.int64)
-        collisions[replicate] += draw_kernel(velocities, own, *arguments, stream)
-        own_sums[:, replicate] += own.sum(), (own * own).sum()
+        collisions[row] += draw_kernel(velocities, own, *arguments, stream)
+        own_sums[:, row] += own.sum(), (own * own).sum()
 
     variables = _velocity_sums(case, fill, progress)
     mean, square = own_sums / case.n_draws
@@ -122,20 +122,20 @@ def sample_kac_equilibrium(case, progress):
     p = case.parameters
     n_particles = p["n_particles"]
     energy = MEAN_ENERGY * n_particles if p["energy"] is None else float(p["energy"])
-    total = case.n_draws * case.n_replicates
-    kept = np.empty(min(KEPT, total), np.int64)
-    lowest = np.full(case.n_replicates, np.iinfo(np.int64).max)
-    highest = np.zeros(case.n_replicates, np.int64)
-    sums = np.zeros((2, case.n_replicates))
+    rows = len(case.replicates)
+    kept = np.empty(min(KEPT, case.n_draws * rows), np.int64)
+    lowest = np.full(rows, np.iinfo(np.int64).max)
+    highest = np.zeros(rows, np.int64)
+    sums = np.zeros((2, rows))
     filled = 0
 
-    def fill(velocities, replicate, stream):
+    def fill(velocities, row, stream):
         nonlocal filled
         times = np.empty(velocities.size, np.int64)
         perfect.couple(velocities, times, n_particles, energy, p["tolerance"], stream)
-        lowest[replicate] = min(lowest[replicate], times.min())
-        highest[replicate] = max(highest[replicate], times.max())
-        sums[:, replicate] += times.sum(), (times.astype(float) ** 2).sum()
+        lowest[row] = min(lowest[row], times.min())
+        highest[row] = max(highest[row], times.max())
+        sums[:, row] += times.sum(), (times.astype(float) ** 2).sum()
         room = min(times.size, kept.size - filled)
         kept[filled : filled + room] = times[:room]
         filled += room

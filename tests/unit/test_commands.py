@@ -7,7 +7,7 @@ import shutil
 import netCDF4
 import pytest
 
-from kacsim import boltzmann, cli, estimating, kac, verify
+from kacsim import boltzmann, cli, estimating, kac, sampling, store, verify
 from kacsim.cases import SAMPLERS, make_case
 from kacsim.meanings import DRAWS, MEANINGS
 from kacsim.progress import Progress
@@ -115,12 +115,22 @@ def test_verify_finds_the_same_bits(drawn):
 
 
 def test_verify_finds_one_wrong_count(drawn):
-    with netCDF4.Dataset(drawn.output(), "a") as file:
-        file["counts"][1, 40] += 1
+    """A file that is whole, with one draw in another bin."""
+    variables = sampling.run(drawn)
+    variables["counts"][1][1, 40] += 1
+    store.write_sample(variables, drawn.output(), drawn)
     state, sentence = verify.verify(drawn, "results/samples")
     assert state == verify.DIFFERENT
     assert "differs in counts" in sentence
     assert drawn.output() in sentence
+
+
+def test_verify_finds_a_flipped_bit(drawn):
+    with netCDF4.Dataset(drawn.output(), "a") as file:
+        file["counts"][1, 40] += 1
+    state, sentence = verify.verify(drawn, "results/samples")
+    assert state == verify.DIFFERENT
+    assert "not a readable result file" in sentence
 
 
 def test_verify_of_a_missing_file(drawn):

@@ -96,7 +96,8 @@ def test_items_share_cases(full):
 
 def test_every_item_has_a_section_and_a_description():
     properties = yaml.safe_load(plan.SCHEMA.read_text(encoding="utf-8"))["properties"]
-    assert set(items.NAMES) | set(plan.COMMON) | {"batch_seconds"} == set(properties)
+    jobs = {"batch_seconds", "shard_seconds"}
+    assert set(items.NAMES) | set(plan.COMMON) | jobs == set(properties)
 
 
 def leaves(rule, path=()):

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
@@ -175,13 +176,68 @@ def test_unreadable_files_are_named_with_what_to_do(damage, tmp_path):
         store.read(path)
 
 
-def test_samples_of_other_settings_are_refused(tmp_path):
+def sample_case(time=1.7, seed=1):
     common = {"algorithm": "bird", "engine": "forward", "n_particles": 7, "n_replicates": 3}
-    case = make_case("kac", time=1.7, n_draws=10, seed=1, **common)
-    path = written(tmp_path / "a.nc", settings=case.settings())
+    return make_case("kac", time=time, n_draws=10, seed=seed, **common)
+
+
+def test_samples_of_other_settings_are_refused(tmp_path):
+    case, path = sample_case(), tmp_path / "a.nc"
+    store.write_sample(content(), path, case)
     assert store.read_sample(path, case).attrs["settings"] == json.loads(
         json.dumps(case.settings())
     )
-    other = make_case("kac", time=1.8, n_draws=10, seed=2, **common)
     with pytest.raises(store.StoreError, match=r"a\.nc: drawn with other seed, time; remove it"):
-        store.read_sample(path, other)
+        store.read_sample(path, sample_case(1.8, seed=2))
+
+
+def test_samples_of_other_code_are_refused(tmp_path):
+    case, path = sample_case(), tmp_path / "a.nc"
+    store.write(content(), path, title="t", settings=case.settings(), code="0123456789abcdef")
+    with pytest.raises(store.StoreError, match=r"a\.nc: drawn by other code; run snakemake"):
+        store.read_sample(path, case)
+
+
+def test_a_dataset_of_another_item_is_refused(tmp_path):
+    dataset = xr.Dataset({"x": 1.0}, attrs={"item": "kac_fig4"})
+    path = written(tmp_path / "a.nc", dataset)
+    assert store.read_dataset(path, "kac_fig4")["x"] == 1.0
+    with pytest.raises(store.StoreError, match=r"a\.nc: holds kac_fig4, not kac_fig5"):
+        store.read_dataset(path, "kac_fig5")
+
+
+@pytest.mark.parametrize("name", ["counts", "large", "gap", "total"])
+def test_a_changed_value_is_noticed(name, tmp_path):
+    path = written(tmp_path / "a.nc")
+    with netCDF4.Dataset(path, "a") as file:
+        flat = np.atleast_1d(file[name][...])
+        flat.flat[0] += 1
+        file[name][...] = flat.reshape(file[name].shape)
+    with pytest.raises(store.StoreError, match="not a readable result file"):
+        store.read(path)
+
+
+def test_a_changed_attribute_is_noticed(tmp_path):
+    path = written(tmp_path / "a.nc")
+    with netCDF4.Dataset(path, "a") as file:
+        file.title = "Another test"
+    with pytest.raises(store.StoreError, match="not a readable result file"):
+        store.read(path)
+
+
+def test_no_flipped_byte_changes_what_is_read(tmp_path):
+    """Every 7th byte, one at a time: either the file is refused or the content is the same."""
+    path = written(tmp_path / "a.nc", {"counts": content()["counts"], "name": content()["name"]})
+    whole, good = path.read_bytes(), store.read(path)
+    refused = 0
+    for place in range(0, len(whole), 7):
+        broken = bytearray(whole)
+        broken[place] ^= 0x10
+        other = tmp_path / f"b{place}.nc"
+        other.write_bytes(broken)
+        try:
+            assert store.read(other).identical(good)
+        except store.StoreError:
+            refused += 1
+        other.unlink()
+    assert refused > 50

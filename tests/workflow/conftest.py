@@ -1,5 +1,6 @@
 """A copy of the project in which the smoke configuration has run once."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -18,11 +19,13 @@ class Project:
 
     def __init__(self, folder):
         self.folder = folder
+        self.chromium = ""  # none, whatever this machine has
 
     def snakemake(self, *words):
         """Run Snakemake on two cores; return the finished process, output as text."""
         command = [sys.executable, "-m", "snakemake", "--cores", "2", *words]
-        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        own = {**os.environ, "KACSIM_CHROMIUM": self.chromium}
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=own)
 
     def planned(self, *words):
         """Return rule -> number of jobs that a dry run plans; empty if nothing is to be done."""
@@ -72,6 +75,7 @@ def finished(tmp_path_factory):
     project = copy_project(tmp_path_factory.mktemp("finished"))
     answer = project.snakemake(*SMOKE)
     assert answer.returncode == 0, answer.stdout + answer.stderr
+    project.said = answer.stdout
     return project
 
 

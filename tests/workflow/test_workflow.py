@@ -1,10 +1,14 @@
 """The workflow: what a run makes, and what a change makes it do again."""
 
 import json
+import os
+import shutil
+import subprocess
+import sys
 
 import pytest
 import yaml
-from conftest import SMOKE, copy_project
+from conftest import ROOT, SMOKE, copy_project
 
 from kacsim import items, plan
 
@@ -15,17 +19,52 @@ def test_a_bare_dry_run_plans_every_job(tmp_path):
     full = plan.Plan(plan.read_config(tmp_path / "config/config.yaml"))
     assert jobs["sample"] == len(full.batches)
     assert jobs["reduce"] == jobs["draw"] == len(items.NAMES)
-    assert jobs["report"] == jobs["all"] == 1
+    assert jobs["report"] == jobs["run_times"] == jobs["all"] == 1
 
 
 def test_the_smoke_run_makes_everything_once(finished):
     results = finished.folder / "results"
     for name in items.NAMES:
-        for suffix in ("png", "svg", "pdf"):
-            assert (results / "figures" / f"{name}.{suffix}").stat().st_size > 1000
+        for suffix in ("png", "svg", "pdf", "csv"):
+            assert (results / "figures" / f"{name}.{suffix}").stat().st_size > 100
     report = (results / "report/report.html").read_text(encoding="utf-8")
     assert all(f'id="{name}"' in report for name in items.NAMES)
+    assert "-c2 --configfile config/smoke.yaml kac_fig1</code>" in report
+    assert "sample/kac_fig1-" in (results / "report/runtime.html").read_text(encoding="utf-8")
     assert finished.planned(*SMOKE) == {}
+
+
+def test_without_a_browser_the_run_says_once_that_nothing_is_printed(finished):
+    lines = [line for line in finished.said.splitlines() if "not printed" in line]
+    assert len(lines) == 1
+    assert lines[0].startswith("results/report/report.pdf: not printed: no Chromium found")
+
+
+def test_with_a_browser_the_report_is_printed_once(project):
+    fake = project.folder / "chromium"
+    fake.write_text(
+        '#!/bin/sh\nfor w; do case $w in --print-to-pdf=*) date > "${w#*=}";; esac; done\n'
+    )
+    fake.chmod(0o755)
+    project.chromium = str(fake)
+    # The report is written again too, since its texts lie elsewhere in a copy.
+    jobs = {"report": 1, "print_report": 1, "run_times": 1, "all": 1}
+    assert project.planned(*SMOKE) == jobs
+    answer = project.snakemake(*SMOKE)
+    assert answer.returncode == 0, answer.stderr
+    assert "not printed" not in answer.stdout
+    assert (project.folder / "results/report/report.pdf").stat().st_size > 0
+    assert project.planned(*SMOKE) == {}
+
+
+def test_the_page_of_snakemake_itself_has_captions_and_categories(project):
+    answer = project.snakemake(*SMOKE, "--report", "page.html")
+    assert answer.returncode == 0, answer.stdout + answer.stderr
+    page = (project.folder / "page.html").read_text(encoding="utf-8")
+    for name in items.NAMES:
+        assert f"results/report/report.html#{name}</tt>" in page
+    for words in ("Kac paper", "Boltzmann paper", "Histograms of v", "<strong>Fig. 1.</strong>"):
+        assert words in page
 
 
 def test_every_job_has_a_log_and_a_benchmark(finished):
@@ -39,7 +78,8 @@ def test_every_job_has_a_log_and_a_benchmark(finished):
 def test_one_figure_runs_only_what_it_needs(tmp_path):
     project = copy_project(tmp_path)
     jobs = project.planned("kac_fig9", *SMOKE)
-    assert jobs == {"compile": 1, "sample": 1, "reduce": 1, "draw": 1, "kac_fig9": 1}
+    # One of its two cases serves another item too, so each has a job of its own.
+    assert jobs == {"compile": 1, "sample": 2, "reduce": 1, "draw": 1, "kac_fig9": 1}
 
 
 def test_editing_a_kernel_samples_its_cases_again_and_no_others(project):
@@ -59,7 +99,7 @@ def test_editing_a_shared_source_samples_everything_again(project):
 def test_editing_a_caption_writes_the_report_again_and_nothing_else(project):
     captions = project.folder / "reports/captions.yaml"
     captions.write_text(captions.read_text(encoding="utf-8") + "\n# edited\n", encoding="utf-8")
-    assert project.planned(*SMOKE) == {"report": 1, "all": 1}
+    assert project.planned(*SMOKE) == {"report": 1, "run_times": 1, "all": 1}
 
 
 def test_editing_an_item_reduces_and_draws_it_again(project):
@@ -77,6 +117,22 @@ def test_changing_a_setting_changes_only_its_item(project):
         "kac-bird-forward-n10-t2-3x2001",
         "kac-poisson-forward-n10-t2-3x2001",
     }
+
+
+def test_shards_give_the_same_samples_and_are_not_kept(finished, project):
+    words = ("results/datasets/kac_fig5.nc", *SMOKE, "--config", "shard_seconds=0.0025")
+    jobs = project.planned(*words)
+    assert jobs == {"shard": 4, "merge": 2, "reduce": 1}
+    for part in ("samples", "datasets"):  # what is compared below is made anew
+        shutil.rmtree(project.folder / "results" / part)
+    assert project.snakemake(*words).returncode == 0
+    made = list((project.folder / "results/samples").glob("*.nc"))
+    assert len(made) == 2
+    for path in [*made, project.folder / "results/datasets/kac_fig5.nc"]:
+        again = finished.folder / path.relative_to(project.folder)
+        assert path.read_bytes() == again.read_bytes()
+    assert not list(project.folder.glob("results/shards/*"))
+    assert project.planned(*words) == {}
 
 
 def test_another_seed_samples_everything_again(project):
@@ -115,3 +171,13 @@ def test_a_file_that_is_no_configuration_starts_nothing(tmp_path, content):
     assert "onfig file" in answer.stderr
     assert "Traceback" not in answer.stderr
     assert not (tmp_path / "results").exists()
+
+
+def test_the_example_of_the_documents_runs(finished):
+    words = [sys.executable, str(ROOT / "docs" / "example.py")]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    answer = subprocess.run(
+        words, cwd=finished.folder, env=environment, capture_output=True, text=True
+    )
+    assert answer.returncode == 0, answer.stderr
+    assert "E[v**4] = " in answer.stdout

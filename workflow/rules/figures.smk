@@ -1,4 +1,4 @@
-# Stage 3: a dataset becomes a figure in three formats.
+# Stage 3: a dataset becomes a figure in three formats, and its numbers a table.
 
 
 rule draw:
@@ -6,7 +6,14 @@ rule draw:
     input:
         "results/datasets/{item}.nc",
     output:
-        expand("results/figures/{{item}}.{format}", format=FORMATS),
+        report(
+            "results/figures/{item}.svg",
+            caption="../../reports/figure.rst",
+            category=labels.category_of,
+            subcategory=labels.part_of,
+            labels=labels.labels_of,
+        ),
+        expand("results/figures/{{item}}.{format}", format=FORMATS[1:]),
     log:
         "logs/draw/{item}.log",
     benchmark:

@@ -1,4 +1,8 @@
-# Stage 4: datasets and figures become the report.
+# Stage 4: datasets and figures become the report, on the page and on paper.
+
+# What the page tells a reader to run: the configuration is given as it was given to this run.
+own_files = [file for file in CONFIG_FILES if file != ROOT / "config/config.yaml"]
+RECIPE = plan.recipe(own_files, workflow.config_settings.config)
 
 
 rule report:
@@ -8,7 +12,12 @@ rule report:
         figures=expand("results/figures/{item}.svg", item=items.NAMES),
         texts=[ROOT / "reports" / name for name in plan.REPORT_FILES],
     output:
-        "results/report/report.html",
+        report(
+            "results/report/report.html",
+            caption="../../reports/report.rst",
+            category="Report",
+            labels={"item": "Report", "shows": "everything, with the verdicts"},
+        ),
     log:
         "logs/report.log",
     benchmark:
@@ -19,9 +28,55 @@ rule report:
         runtime=10,
     params:
         wanted=items.NAMES,
-        code=source_hash("report.py", "store.py"),
+        recipe=RECIPE,
+        code=source_hash("report.py", "report_numbers.py", "store.py"),
     message:
         "Writing the report"
     shell:
         "kacsim report --items {params.wanted} --datasets results/datasets"
-        " --figures results/figures --output {output} > {log} 2>&1"
+        " --figures results/figures --recipe {params.recipe:q} --output {output}"
+        " > {log} 2>&1"
+
+
+rule print_report:
+    """Print the report to PDF, where a Chromium is installed."""
+    input:
+        "results/report/report.html",
+    output:
+        "results/report/report.pdf",
+    log:
+        "logs/print.log",
+    benchmark:
+        "benchmarks/print.tsv"
+    threads: 1
+    resources:
+        mem_mb=1500,
+        runtime=10,
+    params:
+        code=source_hash("printing.py"),
+    message:
+        "Printing the report"
+    shell:
+        "kacsim print --report {input} --output {output} > {log} 2>&1"
+
+
+rule run_times:
+    """Write a page of how long the jobs took: apart from the report, which has the same bytes."""
+    input:
+        "results/report/report.html",
+        ROOT / "reports/runtime.html.j2",
+        ROOT / "reports/style.css",
+    output:
+        "results/report/runtime.html",
+    log:
+        "logs/run_times.log",
+    threads: 1
+    resources:
+        mem_mb=300,
+        runtime=10,
+    params:
+        code=source_hash("times.py"),
+    message:
+        "Writing the page of run times"
+    shell:
+        "kacsim times --output {output} > {log} 2>&1"

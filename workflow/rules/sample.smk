@@ -1,4 +1,5 @@
 # Stage 1: cases become samples.
+import re
 
 
 rule compile:
@@ -39,9 +40,11 @@ for batch in the_plan.batches:
         benchmark:
             f"benchmarks/sample/{batch.id}.tsv"
         priority: batch.priority()
+        group:
+            batch.group()
         threads: 1
         resources:
-            mem_mb=400,
+            mem_mb=batch.megabytes(),
             runtime=batch.minutes(),
         params:
             recipe=batch.arguments(),
@@ -50,3 +53,62 @@ for batch in the_plan.batches:
             f"Sampling {batch.description()}"
         shell:
             "kacsim sample {params.recipe} > {log} 2>&1"
+
+
+# A long case has no batch: shards of its replicates, then one file with the bytes of them all.
+LONG = "|".join(map(re.escape, the_plan.shards)) or "none"
+
+
+rule shard:
+    """Draw some replicates of one case."""
+    input:
+        kernels=lambda wildcards: the_plan.cases[wildcards.case].compiled(),
+    output:
+        temp("results/shards/{case}.{number}of{total}.nc"),
+    log:
+        "logs/sample/{case}.{number}of{total}.log",
+    benchmark:
+        "benchmarks/sample/{case}.{number}of{total}.tsv"
+    wildcard_constraints:
+        case=LONG,
+    priority: 999
+    threads: 1
+    resources:
+        mem_mb=lambda wildcards: the_plan.shard(wildcards).megabytes(),
+        runtime=lambda wildcards: the_plan.shard(wildcards).minutes(),
+    params:
+        recipe=lambda wildcards: the_plan.shard(wildcards).arguments(),
+        code=lambda wildcards: source_hash(*the_plan.shard(wildcards).sources()),
+    message:
+        "Sampling {wildcards.case}, shard {wildcards.number} of {wildcards.total}"
+    shell:
+        "kacsim sample {params.recipe} --output {output} > {log} 2>&1"
+
+
+rule merge:
+    """Join the shards of one case."""
+    input:
+        lambda wildcards: [part.output() for part in the_plan.shards[wildcards.case]],
+    output:
+        "results/samples/{case}.nc",
+    log:
+        "logs/sample/{case}.merge.log",
+    benchmark:
+        "benchmarks/sample/{case}.merge.tsv"
+    wildcard_constraints:
+        case=LONG,
+    threads: 1
+    resources:
+        mem_mb=lambda wildcards: the_plan.cases[wildcards.case].megabytes(),
+        runtime=10,
+    params:
+        recipe=lambda wildcards: the_plan.cases[wildcards.case].arguments(),
+        number=lambda wildcards: len(the_plan.shards[wildcards.case]),
+        code=lambda wildcards: source_hash(
+            "shards.py", *the_plan.cases[wildcards.case].sources()
+        ),
+    message:
+        "Merging {wildcards.case}"
+    shell:
+        "kacsim merge {params.recipe} --shards {params.number} --output {output}"
+        " > {log} 2>&1"

@@ -1,0 +1,86 @@
+"""The kept report: what is copied, what is refused, and what is said of it later."""
+
+import json
+
+import pytest
+
+from kacsim import cli, jit, kept, plan, provenance, store
+
+HTML = '<a href="../datasets/kac_fig4.nc">dataset</a> <a href="#here">here</a>'
+
+
+@pytest.fixture
+def results(tmp_path):
+    """Return the results of a made-up full run of one item, and its settings."""
+    pytest.importorskip("xarray")
+    folder = tmp_path / "results"
+    settings = {"kac_fig4": {"seed": 1, "n_draws": 10, "time": 2.0}}
+    variables = {"tvn": store.described([0.1], ("row",), "TVN")}
+    for name, one in settings.items():
+        path = folder / "datasets" / f"{name}.nc"
+        store.write(variables, path, title="t", settings=one)
+    for module in kept.KERNEL_MODULES:
+        path = folder / "kernels" / module.replace(".py", ".txt")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(provenance.source_hash(*jit.kernel_sources(module)) + "\n")
+    (folder / "report").mkdir()
+    (folder / "report/report.html").write_text(HTML, encoding="utf-8")
+    return folder, settings
+
+
+def test_a_kept_report_stands_alone_and_knows_what_made_it(results, tmp_path):
+    folder, settings = results
+    assert "kept" in kept.keep(folder, settings, tmp_path / "latest")
+    html = (tmp_path / "latest/report.html").read_text(encoding="utf-8")
+    assert html == 'dataset <a href="#here">here</a>'
+    facts = json.loads((tmp_path / "latest/kept.json").read_text(encoding="utf-8"))
+    assert facts["configuration"] == settings
+    assert provenance.commit() in facts["sources"][0]
+    assert set(facts["kernels"]) == set(kept.KERNEL_MODULES)
+
+
+def test_a_run_with_other_settings_is_not_kept(results, tmp_path):
+    folder, settings = results
+    settings["kac_fig4"] = settings["kac_fig4"] | {"n_draws": 1000}
+    with pytest.raises(store.StoreError, match="only a full run is kept"):
+        kept.keep(folder, settings, tmp_path / "latest")
+    assert not (tmp_path / "latest").exists()
+
+
+def test_a_report_that_is_too_large_is_not_kept(results, tmp_path):
+    folder, settings = results
+    (folder / "report/report.html").write_text("x" * (kept.LARGEST + 1), encoding="utf-8")
+    with pytest.raises(store.StoreError, match="at most 5000000"):
+        kept.keep(folder, settings, tmp_path / "latest")
+
+
+def test_changed_kernels_are_named(results, tmp_path):
+    folder, settings = results
+    assert "no report is kept yet" in kept.sentence(tmp_path / "latest")
+    kept.keep(folder, settings, tmp_path / "latest")
+    assert kept.sentence(tmp_path / "latest").endswith(
+        "no kernel has changed since the kept report"
+    )
+    (folder / "kernels/kac/bird.txt").write_text("0123456789abcdef\n")
+    kept.keep(folder, settings, tmp_path / "latest")
+    assert kept.sentence(tmp_path / "latest").endswith("since the kept report: kac/bird.py")
+
+
+def test_the_kept_report_of_this_checkout_is_small_enough():
+    folder = provenance.ROOT / "reports/latest"
+    if not folder.exists():
+        pytest.skip("no report is kept yet")
+    assert (folder / kept.REPORT).stat().st_size <= kept.LARGEST
+    assert {"sources", "kernels", "configuration"} <= set(
+        json.loads((folder / kept.FACTS).read_text())
+    )
+
+
+def test_the_commands(results, tmp_path, capsys):
+    folder, _ = results
+    config = str(plan.ROOT / "config/config.yaml")
+    words = ["--results", str(folder), "--config", config, "--folder", str(tmp_path / "latest")]
+    assert cli.main(["keep", *words]) == 2  # the made-up run has not all items
+    assert "kac_fig1.nc: not a readable result file" in capsys.readouterr().err
+    assert cli.main(["kept", "--folder", str(tmp_path / "latest")]) == 0
+    assert "no report is kept yet" in capsys.readouterr().out

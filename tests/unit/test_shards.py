@@ -1,0 +1,167 @@
+"""Shards: however many, the merged file has the bytes of the one drawn in one go."""
+
+import dataclasses
+import shlex
+from pathlib import Path
+
+import pytest
+
+from kacsim import cli, plan, sampling, shards, store
+from kacsim.boltzmann import sampling as boltzmann_sampling
+from kacsim.cases import LISTS, SAMPLERS, UNSHARDED, make_case
+from kacsim.kac import sampling as kac_sampling
+from kacsim.provenance import ROOT
+
+CONFIG = ROOT / "config" / "config.yaml"
+SIZE = {"n_draws": 60, "n_replicates": 5, "seed": 3}
+PROBES = {"n_particles": 4, "tolerance": 0.1, "initial": "bkw", "keep_above": 0.5}
+KAC = {"algorithm": "poisson", "engine": "ancestral"}
+LIMIT = 130  # of first and largest values: fewer than a case draws, more than one shard of five
+
+
+def case_of(sampler, **size):
+    given = {name: value for name, value in PROBES.items() if name in SAMPLERS[sampler]}
+    for name in ("speed", "time", "threshold", "majorant", "radius", "oversampling"):
+        if name in SAMPLERS[sampler]:
+            given[name] = [1.0, 1.5] if name in LISTS.get(sampler, ()) else 1.0
+    return make_case(sampler, **given, **(KAC if sampler == "kac" else {}), **(SIZE | size))
+
+
+def written(variables, case, path):
+    store.write_sample(variables, path, case)
+    return Path(path).read_bytes()
+
+
+def drawn(case, path=None):
+    return written(sampling.run(case), case, path or case.output())
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Run in a folder of its own, with limits that a few draws reach."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(kac_sampling, "KEPT", LIMIT)
+    monkeypatch.setattr(boltzmann_sampling, "TOP", LIMIT)
+
+
+@pytest.mark.parametrize("sampler", [name for name in SAMPLERS if name not in UNSHARDED])
+def test_any_number_of_shards_gives_the_same_bytes(sampler, folder):
+    case = case_of(sampler)
+    expected = drawn(case)
+    for number in (1, 2, 3, case.n_replicates):
+        parts = case.split(number)
+        for part in parts:
+            drawn(part, Path("parts") / Path(part.output()).name)
+        assert written(shards.merged(parts, "parts"), case, "a.nc") == expected, number
+
+
+def test_the_limits_are_reached(folder):
+    """The cases above would not show a wrong merge of first or largest values otherwise."""
+    names = {"kac": "kept_velocity", "kac_equilibrium": "coupling_time", "bkw": "top"}
+    for sampler, name in names.items():
+        size = 200 if sampler == "kac" else 60
+        assert sampling.run(case_of(sampler, n_draws=size))[name][1].shape[-1] == LIMIT
+
+
+def test_first_values_above_a_threshold_are_cut_at_their_limit(folder):
+    case = case_of("kac", n_draws=200)
+    expected = drawn(case)
+    for part in case.split(3):
+        drawn(part)
+    assert written(shards.merged(case.split(3)), case, "a.nc") == expected
+
+
+@pytest.mark.parametrize("sampler", ["kac", "kac_equilibrium", "bkw"])
+def test_a_shard_of_wrong_replicates_changes_the_bytes(sampler, folder):
+    """The negative control: the second shard draws the replicates of the first."""
+    case = case_of(sampler, n_replicates=4)
+    expected = drawn(case)
+    first, second = case.split(2)
+    drawn(first)
+    written(sampling.run(first), second, second.output())
+    assert written(shards.merged([first, second]), case, "a.nc") != expected
+    drawn(second)
+    assert written(shards.merged([first, second]), case, "a.nc") == expected
+
+
+@pytest.mark.parametrize("number", [2, 3, 5])
+def test_shards_are_a_partition_of_the_replicates(number):
+    parts = case_of("kac").split(number)
+    assert [k for part in parts for k in part.replicates] == list(range(5))
+    assert {len(part.replicates) for part in parts} <= {5 // number, 5 // number + 1}
+    assert sum(part.seconds() for part in parts) == pytest.approx(case_of("kac").seconds())
+    assert len({part.output() for part in parts}) == number
+
+
+def test_a_file_of_another_shard_is_refused(folder):
+    first, second = case_of("kac").split(2)
+    drawn(first)
+    drawn(first, second.output())
+    with pytest.raises(store.StoreError, match="other shard"):
+        shards.merged([first, second])
+    Path(second.output()).unlink()
+    with pytest.raises(store.StoreError, match="2of2"):
+        shards.merged([first, second])
+
+
+def test_the_command_line_draws_and_merges(folder, capsys):
+    case = case_of("bkw")
+    expected = drawn(case, "expected.nc")
+    for part in case.split(3):
+        words = ["sample", *shlex.split(part.arguments()), "--output", part.output()]
+        assert cli.main(words) == 0
+    assert "drew 60 values" in capsys.readouterr().out
+    merge = ["merge", *shlex.split(case.arguments()), "--shards", "3", "--output", "a.nc"]
+    assert cli.main(merge) == 0
+    assert Path("a.nc").read_bytes() == expected
+
+
+@pytest.mark.parametrize("shard", ["0/3", "4/3", "1/6", "-1/2", "1/0"])
+def test_a_wrong_shard_is_refused(shard, folder, capsys):
+    words = ["sample", *shlex.split(case_of("kac").arguments()), f"--shard={shard}"]
+    assert cli.main([*words, "--output", "a.nc"]) == 2
+    assert f"--shard = '{shard}': must be k/K" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("shard", ["1", "one/two", "1/2/3", "1.0/2"])
+def test_text_that_is_no_shard_is_refused(shard, capsys):
+    words = ["sample", *shlex.split(case_of("kac").arguments()), "--shard", shard]
+    with pytest.raises(SystemExit) as stopped:
+        cli.main([*words, "--output", "a.nc"])
+    assert stopped.value.code == 2
+    assert "must be k/K" in capsys.readouterr().err
+
+
+def test_samplers_of_runs_are_not_sharded():
+    tiny = {case.sampler: case for case in sampling._tiny_cases()}
+    for sampler in UNSHARDED:
+        case = dataclasses.replace(tiny[sampler], n_replicates=5)
+        assert shards.make_shards([case], 1e-12) == {}
+        assert dataclasses.replace(case, shard=(1, 2)).problems()
+
+
+def test_the_plan_shards_the_long_cases_only():
+    config = plan.read_config(CONFIG)
+    assert plan.Plan(config, [CONFIG]).shards == {}
+    some = plan.Plan(config | {"shard_seconds": 5.0}, [CONFIG])
+    assert 0 < len(some.shards) < len(some.cases)
+    for name, parts in some.shards.items():
+        case = some.cases[name]
+        one = case.seconds() / case.n_replicates
+        assert case.seconds() > 5.0
+        assert all(part.seconds() < 5.0 + one for part in parts)
+    batched = {case.id for batch in some.batches for case in batch.cases}
+    assert batched | set(some.shards) == set(some.cases)
+    assert not batched & set(some.shards)
+
+
+@pytest.mark.parametrize("value", [-1, "many", None, float("inf"), float("nan"), True])
+def test_a_wrong_shard_seconds_is_refused(value):
+    with pytest.raises(plan.PlanError, match="shard_seconds"):
+        plan.Plan({"shard_seconds": value}, [CONFIG])
+
+
+def test_more_replicates_ask_for_more_memory():
+    few, many = case_of("kac"), case_of("kac", n_replicates=100_000)
+    assert many.megabytes() > few.megabytes() > 0
+    assert many.split(1000)[0].megabytes() == pytest.approx(few.megabytes(), abs=2)

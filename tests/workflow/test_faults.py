@@ -1,0 +1,33 @@
+"""The scenarios of tests/faults.py on a few items: killed, broken, full, at the same time."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import faults
+
+ITEMS = ("kac_fig4", "kac_fig6", "boltzmann_fig7")
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory):
+    """Return (checksums of an undisturbed run, its kernel cache)."""
+    run = faults.Run(tmp_path_factory.mktemp("undisturbed"), ITEMS)
+    return run.complete(), run.cache
+
+
+@pytest.mark.parametrize("scenario", faults.SCENARIOS, ids=lambda scenario: scenario.__name__)
+def test_same_bytes_after(scenario, warm, tmp_path):
+    if scenario is faults.full_disk and os.geteuid() != 0:
+        pytest.skip("mounting a small disk needs root")
+    expected, cache = warm
+    made = []
+
+    def make():
+        made.append(faults.Run(tmp_path / str(len(made)), ITEMS, cache))
+        return made[-1]
+
+    assert scenario(make, expected, False) > 0

@@ -1,6 +1,6 @@
 """Tables, rejection and the Gamma identity against the laws that they stand for.
 
-36 z tests of 6.3e-5 each: a false alarm in 0.23 % of the seeds.
+39 z tests of 6.3e-5 each: a false alarm in 0.25 % of the seeds.
 """
 
 import math
@@ -12,7 +12,7 @@ from law import compare
 from scipy import special
 
 from kacsim import techniques
-from kacsim.checks_techniques import LAWS, SUPPORT
+from kacsim.checks_techniques import CLOSED, LAWS, SUPPORT
 from kacsim.streams import new_stream
 from kacsim.techniques import exact, identity, inverse_transform, model, rejection
 from kacsim.variates import uniform
@@ -114,6 +114,19 @@ def test_exercise_1(seed):
     assert compare.of_distribution(x, lambda v: -np.expm1(-2.7 * v)) <= compare.LIMIT
     assert abs(compare.of_mean(x, 1.0 / 2.7)) <= compare.LIMIT
     assert abs(compare.of_mean(x, 1.0 / 2.75)) > compare.CAUGHT
+
+
+@pytest.mark.parametrize("law", CLOSED)
+def test_closed_inverses_have_their_laws(law, seed):
+    """Null: P(v) of every law that is inverted in closed form. 3 z: 1e6 draws see 0.0026.
+
+    Mutant: the uniforms themselves a hundredth too large.
+    """
+    values = techniques.draw_by_inversion(law, n_draws=N, seed=seed)
+    cumulative = exact.CUMULATIVES[law]
+    assert compare.of_distribution(values, cumulative) <= compare.LIMIT
+    wrong = 1.01 * cumulative(values)
+    assert compare.of_distribution(wrong, lambda u: np.clip(u, 0.0, 1.0)) > compare.CAUGHT
 
 
 def test_any_law_by_table_and_by_rejection(seed):

@@ -11,7 +11,15 @@ import boltzmann_twins as twins
 import numpy as np
 import pytest
 
-from kacsim.boltzmann import bkw_tree, kac_tree, literal, null_collisions, trap, trap_tree
+from kacsim.boltzmann import (
+    bkw_tree,
+    kac_tree,
+    literal,
+    literal_trap,
+    null_collisions,
+    trap,
+    trap_tree,
+)
 from kacsim.streams import new_stream
 
 BUDGET = 10**6
@@ -108,6 +116,17 @@ def test_literal_is_exact_at_equilibrium(seed):
     assert nodes.max() > 20
     np.testing.assert_allclose(values, 1.0, rtol=1e-11)
     literal.estimate(values, nodes, 1.7, 1.5, False, new_stream(seed, "null variance"))
+    assert abs(values - 1.0).max() > 0.1
+
+
+def test_literal_trap_is_exact_in_the_breathing_state(seed):
+    """Every realization of f / (31) is 1, collisions included; from eq. (18) none is."""
+    values, nodes = np.empty(300), np.empty(300, np.int64)
+    probe = 0.8, 0.5, 1.9, 4.9, 0.3
+    literal_trap.estimate(values, nodes, *probe, True, new_stream(seed, "null variance"))
+    assert nodes.max() > 10
+    np.testing.assert_allclose(values, 1.0, rtol=1e-10)
+    literal_trap.estimate(values, nodes, *probe, False, new_stream(seed, "null variance"))
     assert abs(values - 1.0).max() > 0.1
 
 

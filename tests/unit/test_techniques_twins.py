@@ -184,6 +184,23 @@ def test_slope_of_exact_powers():
     assert level == pytest.approx(2.7)
 
 
+def test_slope_of_two_sizes_by_hand():
+    """Two sizes: the fitted squares are their means; three groups of one deviation at each size.
+
+    The error is the root of G / (G - 1) sum r**2, r a group's sum of relative deviations over
+    twice the number of squares of a size times the span of log n.
+    """
+    n = np.repeat([10.0, 40.0], 6)
+    squares = np.array([1.0, 2.0, 3.0, 1.5, 2.5, 2.0, 0.7, 0.3, 0.5, 0.4, 0.6, 0.5])
+    groups = np.repeat(np.arange(6), 2)
+    fitted, _ = slope.of_squares(n, squares, groups)
+    means, span = (squares[:6].mean(), squares[6:].mean()), math.log(4.0)
+    assert fitted.value == pytest.approx(0.5 * math.log(means[1] / means[0]) / span)
+    relative = squares / np.repeat(means, 6) - 1.0
+    sums = relative.reshape(6, 2).sum(axis=1) / (2 * 6 * span)
+    assert fitted.standard_error == pytest.approx(math.sqrt(6 / 5 * (sums**2).sum()), rel=1e-6)
+
+
 def test_slope_and_its_error_are_calibrated(seed):
     """300 sets of 40 normal errors, each twice: bias, spread and stated error agree."""
     rng = np.random.default_rng(seed)

@@ -88,6 +88,26 @@ def test_corrections(measured, printed, corrected, expected):
     assert row["verdict"] == expected
 
 
+def test_reading_error_of_a_figure_widens_the_error():
+    """Measured 0.06 with an error of 0.003, read off as 0.048 with one of 0.004: z = 2.4."""
+    entry = {"kind": "number", "value": 0.048, "reading_error": 0.004}
+    found = Finding("claim", 0.06, 0.003)
+    (row,) = verdict.judge([found], {"claim": entry})
+    assert row["z"] == pytest.approx(0.012 / 0.005)
+    (exact,) = verdict.judge([found], {"claim": entry | {"reading_error": 0.0}})
+    assert exact["z"] == pytest.approx(4.0)
+
+
+def test_the_corrected_value_is_judged_in_the_family():
+    """3 sigma from the corrected value, p = 0.0027: among ten claims 0.027, which stands."""
+    values = {"printed": 1.0, "corrected": 9.0}
+    doubtful = one(12.0, 1.0, **values)
+    (alone,) = verdicts("correction", None, doubtful)
+    assert alone["verdict"] == NOT_REPRODUCED
+    family = verdicts("correction", None, doubtful, *[one(1.0, 1.0, **values)] * 9)
+    assert family[0]["verdict"] == CORRECTED
+
+
 def test_printed_value_of_a_finding_replaces_the_entrys():
     (row,) = verdicts("number", 99.0, one(5.0, 1.0, printed=5.0))
     assert (row["z"], row["verdict"]) == (0.0, REPRODUCED)

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import browser, cases, console, items, labels, plan
+from kacsim import browser, cases, console, items, labels, plan, samplers
 from kacsim.provenance import ROOT, source_hash
 
 
@@ -51,7 +51,7 @@ except plan.PlanError as error:
 
 wildcard_constraints:
     item="|".join(items.NAMES),
-    kernels="|".join(module.removesuffix(".py") for module in cases.KERNEL_MODULES),
+    kernels="|".join(module.removesuffix(".py") for module in samplers.KERNEL_MODULES),
 
 
 rule all:

@@ -6,7 +6,7 @@ import signal
 import sys
 import threading
 
-from kacsim import cases, commands, meanings, plan
+from kacsim import cases, commands, meanings, plan, samplers
 from kacsim.checks import BudgetError
 
 USAGE_ERROR = 2
@@ -164,7 +164,7 @@ def _add_stages(reducing, drawing, reporting, compiling):
     reporting.add_argument("--items", nargs="+", required=True)
     reporting.add_argument("--output", required=True)
     reporting.add_argument("--recipe", default="snakemake -c2", help="what the page says to run")
-    compiling.add_argument("module", choices=cases.KERNEL_MODULES)
+    compiling.add_argument("module", choices=samplers.KERNEL_MODULES)
     compiling.add_argument("--output", required=True, help="file that gets the sources' hash")
 
 
@@ -179,17 +179,17 @@ def _add_pages(printing, keeping, asking):
 
 def _add_sampling(parent):
     """Add the samplers to a command on one case; yield the parser of each."""
-    samplers = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
-    for sampler, names in cases.SAMPLERS.items():
+    found = parent.add_subparsers(required=True, metavar="sampler", dest="sampler")
+    for sampler, names in samplers.SAMPLERS.items():
         text = meanings.DRAWS[sampler]
-        one = samplers.add_parser(sampler, help=text, description=f"Draw {text}.")
+        one = found.add_parser(sampler, help=text, description=f"Draw {text}.")
         for name in names:
             engine = name == "engine"  # of all others the case fills in the default
-            many = {"nargs": "+"} if name in cases.LISTS.get(sampler, ()) else {}
+            many = {"nargs": "+"} if name in samplers.LISTS.get(sampler, ()) else {}
             one.add_argument(
                 cases.flag(name),
                 type=_value(name),
-                required=name not in cases.DEFAULTS and not engine,
+                required=name not in samplers.DEFAULTS and not engine,
                 default="ancestral" if engine else None,
                 help=meanings.MEANINGS[name],
                 **many,

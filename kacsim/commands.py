@@ -4,7 +4,7 @@ import json
 import time
 from pathlib import Path
 
-from kacsim import cases, plan
+from kacsim import cases, plan, samplers
 from kacsim.checks import Problem
 
 DIFFERENCE = 1  # exit status of `verify` where bits differ
@@ -88,7 +88,7 @@ def run_merge(arguments):
 
 def _case_of(arguments):
     """Return the case that the flags of `sample` or `merge` describe."""
-    names = cases.SAMPLERS[arguments.sampler]
+    names = samplers.SAMPLERS[arguments.sampler]
     given = {name: getattr(arguments, name) for name in names}
     given = {name: value for name, value in given.items() if value is not None}
     size = {name: getattr(arguments, name) for name in ("n_draws", "n_replicates", "seed")}

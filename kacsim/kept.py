@@ -8,9 +8,9 @@ import json
 from pathlib import Path
 
 from kacsim import store
-from kacsim.cases import KERNEL_MODULES
 from kacsim.provenance import source_hash
 from kacsim.report import read_text, without_files
+from kacsim.samplers import KERNEL_MODULES
 
 LARGEST = 5_000_000  # bytes
 REPORT, FACTS = "report.html", "kept.json"

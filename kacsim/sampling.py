@@ -2,8 +2,9 @@
 
 import importlib
 
-from kacsim.cases import LISTS, SAMPLERS, make_case
+from kacsim.cases import make_case
 from kacsim.checks import ALGORITHMS, ENGINES, STEPPED
+from kacsim.samplers import LISTS, SAMPLERS
 
 
 def run(case, progress=None):
@@ -83,7 +84,7 @@ def compile_module(module):
 
     Parameters
     ----------
-    module : one of kacsim.cases.KERNEL_MODULES
+    module : one of kacsim.samplers.KERNEL_MODULES
     """
     for case in _tiny_cases():
         if case.kernel_module == module:

@@ -7,7 +7,7 @@ of a file drawn in one go.
 import math
 from pathlib import Path
 
-from kacsim.cases import UNSHARDED
+from kacsim.samplers import UNSHARDED
 
 
 def make_shards(cases, shard_seconds):

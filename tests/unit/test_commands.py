@@ -8,10 +8,11 @@ import netCDF4
 import pytest
 
 from kacsim import boltzmann, cli, estimating, kac, sampling, store, verify
-from kacsim.cases import SAMPLERS, make_case
+from kacsim.cases import make_case
 from kacsim.meanings import DRAWS, MEANINGS
 from kacsim.progress import Progress
 from kacsim.provenance import ROOT
+from kacsim.samplers import SAMPLERS
 
 CONFIG = ROOT / "config" / "config.yaml"
 

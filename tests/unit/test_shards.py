@@ -8,9 +8,10 @@ import pytest
 
 from kacsim import cli, plan, sampling, shards, store
 from kacsim.boltzmann import sampling as boltzmann_sampling
-from kacsim.cases import LISTS, SAMPLERS, UNSHARDED, make_case
+from kacsim.cases import make_case
 from kacsim.kac import sampling as kac_sampling
 from kacsim.provenance import ROOT
+from kacsim.samplers import LISTS, SAMPLERS, UNSHARDED
 from kacsim.techniques import sampling as techniques_sampling
 
 CONFIG = ROOT / "config" / "config.yaml"

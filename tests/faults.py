@@ -5,6 +5,7 @@
 """
 
 import argparse
+import contextlib
 import hashlib
 import os
 import random
@@ -140,13 +141,19 @@ def other_circumstances(make, expected, full):
     return len(ways)
 
 
+def _signal(process, number):
+    """Send a signal to a process group, unless it has already ended."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, number)
+
+
 def kill_everything(make, expected, full, n_kills=None):
     """Kill the process group at random moments; then go on."""
     choice, run, killed = random.Random(11), make(), 0
     for _ in range(n_kills or (20 if full else 3)):
         process = run.start()
-        time.sleep(choice.uniform(2.0, 9.0))
-        os.killpg(process.pid, signal.SIGKILL)
+        time.sleep(choice.uniform(1.5, 9.0 if full else 5.0))
+        _signal(process, signal.SIGKILL)
         killed += process.wait() == -signal.SIGKILL
         time.sleep(0.2)
         if run.processes():
@@ -165,8 +172,9 @@ def kill_jobs(make, expected, full):
             time.sleep(0.1)
         jobs = [pid for pid in run.processes() if b"kacsim" in _command(pid)]
         for pid in jobs[:1]:
-            os.kill(pid, signal.SIGKILL)
-            killed += 1
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+                killed += 1
         process.wait()
     same(run.complete(), expected, "after killed jobs")
     return killed
@@ -187,7 +195,7 @@ def interrupt(make, expected, full):
         run = make()
         process = run.start()
         time.sleep(choice.uniform(3.0, 9.0))
-        os.killpg(process.pid, number)
+        _signal(process, number)
         process.wait()
         time.sleep(0.5)
         if run.leftovers():

@@ -59,6 +59,8 @@ rule all:
         "results/report/report.html",
         "results/report/runtime.html",
         PRINTED,
+        [case.output() for case in the_plan.cases.values()],
+        expand("results/datasets/{item}.nc", item=items.NAMES),
         expand("results/figures/{item}.{format}", item=items.NAMES, format=FORMATS),
 
 

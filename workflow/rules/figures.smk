@@ -31,11 +31,14 @@ rule draw:
         " > {log} 2>&1"
 
 
-# Each item is a target of its own name, so that `snakemake -c2 kac_fig3` works.
+# Each item is a target of its own name, so that `snakemake -c2 kac_fig3` works. Samples and datasets
+# are named too: Snakemake would not make an absent one again for a figure that is there.
 for item_name in items.NAMES:
 
     rule:
         name:
             item_name
         input:
+            [case.output() for case in the_plan.cases_of[item_name]],
+            f"results/datasets/{item_name}.nc",
             expand("results/figures/{item}.{format}", item=item_name, format=FORMATS),

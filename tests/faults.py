@@ -265,6 +265,19 @@ def remove(victim, _):
     victim.unlink()
 
 
+def can_mount():
+    """Tell whether this user may mount a small disk here."""
+    with tempfile.TemporaryDirectory() as folder:
+        mounted = subprocess.run(
+            ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", folder],
+            check=False,
+            capture_output=True,
+        )
+        if mounted.returncode == 0:
+            subprocess.run(["umount", folder], check=True)
+        return mounted.returncode == 0
+
+
 def full_disk(make, expected, full):
     """Fill the disk in the middle of a run, and then a read-only one; needs to mount."""
     run, tries = make(), 0

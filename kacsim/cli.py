@@ -6,11 +6,14 @@ import signal
 import sys
 import threading
 
+import shtab
+
 from kacsim import cases, commands, meanings, plan, samplers
 from kacsim.checks import BudgetError
 
 USAGE_ERROR = 2
 JOIN = "--and"  # between the cases of one `sample` command
+COMPLETION = "--print-completion"
 # command -> (what it does, an example)
 COMMANDS = {
     "plan": ("check a configuration and list its cases", "plan --item kac_fig3"),
@@ -110,6 +113,7 @@ def _parser(words=()):
         epilog=EPILOG,
         formatter_class=form,
     )
+    shtab.add_argument_to(parser, COMPLETION, help="for this shell, to be put where it looks")
     found = parser.add_subparsers(required=True, metavar="command")
     parts = {}
     for name, (text, example) in COMMANDS.items():
@@ -124,7 +128,7 @@ def _parser(words=()):
     for one in _add_sampling(parts["merge"]):
         one.add_argument("--shards", type=_shards, required=True, dest="shard", help="how many")
         one.add_argument("--folder", default="results/shards", help="where they lie")
-    if list(words[:1]) == ["estimate"]:
+    if words and words[0] in ("estimate", COMPLETION):
         from kacsim import estimating
 
         estimating.add_parsers(parts["estimate"])

@@ -29,6 +29,11 @@ class PlanError(Exception):
     """Everything that is wrong with a configuration, one line each."""
 
 
+def _in_one_line(text):
+    """Return a text whose line ends and other unprintable characters are escaped."""
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
 def _shared_items():
     """Return the helper modules of the items; an edit makes all datasets and figures again."""
     folder = Path(items.__file__).parent
@@ -178,7 +183,7 @@ class Plan:
                 f"{self._file_of(path)}: {describe(path)}{_shown(value)}: {sentence}"
                 for path, value, sentence in problems
             ]
-            raise PlanError("\n".join(lines))
+            raise PlanError("\n".join(map(_in_one_line, lines)))
 
     def _file_of(self, path):
         """Return the last file that sets the key of a path, the first file if none does."""

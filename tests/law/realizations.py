@@ -49,14 +49,6 @@ def z_of_leaves(nodes, time):
     return compare.of_counts(counts, shares)
 
 
-def ok(*zs):
-    return all(abs(z) <= compare.LIMIT for z in zs)
-
-
-def caught(z):
-    return abs(z) > compare.CAUGHT
-
-
 def kernel_draws(kernel, arguments, n, seed, name):
     values, nodes = np.empty(n), np.empty(n, np.int64)
     assert kernel(values, nodes, *arguments, new_stream(seed, name))

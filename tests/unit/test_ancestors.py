@@ -59,5 +59,5 @@ def test_the_exact_process_draws_as_many_collisions(n, seed):
     stream, buffers = new_stream(seed, f"ancestors {n}"), (np.empty(1000), np.empty(1000, int))
     means = np.array([kernel(*buffers, *arguments, stream) / 1000 for _ in range(400)])
     exact = ancestors.expected_collisions(TIME, n, RATE)
-    assert abs(compare.of_mean(means, exact)) <= compare.LIMIT
-    assert abs(compare.of_mean(means, 1.03 * exact)) > compare.CAUGHT
+    assert compare.ok(compare.of_mean(means, exact))
+    assert compare.caught(compare.of_mean(means, 1.03 * exact))

@@ -3,6 +3,7 @@
 import io
 import json
 import shutil
+import subprocess
 
 import netCDF4
 import pytest
@@ -35,6 +36,26 @@ def test_help_shows_an_example(command, capsys):
     assert end.value.code == 0
     shown = capsys.readouterr().out
     assert f"kacsim {command}" in shown.split("example:")[1]
+
+
+@pytest.mark.skipif(not shutil.which("bash"), reason="no bash")
+@pytest.mark.parametrize(
+    ("words", "offered"),
+    [
+        (["ver"], ["verify"]),
+        (["estimate", ""], list(estimating.ESTIMATORS)),
+        (["sample", "kac", "--alg"], ["--algorithm"]),
+    ],
+)
+def test_the_shell_completes_commands(words, offered, capsys):
+    with pytest.raises(SystemExit):
+        cli.main([cli.COMPLETION, "bash"])
+    script = capsys.readouterr().out + (
+        f"COMP_WORDS=(kacsim {' '.join(word or chr(34) * 2 for word in words)})\n"
+        f"COMP_CWORD={len(words)}; _shtab_kacsim; echo ${{COMPREPLY[@]}}"
+    )
+    shown = subprocess.run(["bash"], input=script, capture_output=True, text=True, check=True)
+    assert shown.stdout.split() == offered
 
 
 def test_plan_is_a_table_with_costs(capsys):

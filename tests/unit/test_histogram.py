@@ -86,8 +86,8 @@ def test_noise_floor_is_the_mean_of_exact_multinomials(expected, n_draws, seed):
     rng = np.random.default_rng([seed, 10])
     tvn = histogram.total_variation(rng.multinomial(n_draws, expected, 4000), expected)
     floor = histogram.noise_floor(expected, n_draws)
-    assert abs(compare.of_mean(tvn, floor)) <= compare.LIMIT
-    assert abs(compare.of_mean(tvn, floor / 2.0)) > compare.CAUGHT
+    assert compare.ok(compare.of_mean(tvn, floor))
+    assert compare.caught(compare.of_mean(tvn, floor / 2.0))
 
 
 def test_noise_floor_is_exact_for_one_draw():

@@ -102,12 +102,12 @@ def test_initial_law(drawn):
     """
     v = drawn["velocity"]
     for square in (v**2, drawn["energy"]):
-        assert compare.of_distribution(square, F0_SQUARE.cdf) <= compare.LIMIT
-        assert abs(compare.of_energy(np.sqrt(square))) <= compare.LIMIT
-        assert abs(compare.of_fourth(np.sqrt(square), 15.0 / 4.0)) <= compare.LIMIT
-        assert compare.of_distribution(1.02 * square, F0_SQUARE.cdf) > compare.CAUGHT
-    assert abs(compare.of_share((v > 0.0).sum(), N, 0.5)) <= compare.LIMIT
-    assert compare.of_distribution(2.0 * v**2, F0_SQUARE.cdf) > compare.CAUGHT
+        assert compare.ok(compare.of_distribution(square, F0_SQUARE.cdf))
+        assert compare.ok(compare.of_energy(np.sqrt(square)))
+        assert compare.ok(compare.of_fourth(np.sqrt(square), 15.0 / 4.0))
+        assert compare.caught(compare.of_distribution(1.02 * square, F0_SQUARE.cdf))
+    assert compare.ok(compare.of_share((v > 0.0).sum(), N, 0.5))
+    assert compare.caught(compare.of_distribution(2.0 * v**2, F0_SQUARE.cdf))
 
 
 def test_sharing_energies_is_the_law_of_a_rotation(drawn):
@@ -116,6 +116,6 @@ def test_sharing_energies_is_the_law_of_a_rotation(drawn):
     Mutant: a uniform share in place of that of a uniform angle.
     """
     shared, rotated = drawn["shared"], drawn["rotated"]
-    assert compare.of_distributions(shared, rotated) <= compare.LIMIT
+    assert compare.ok(compare.of_distributions(shared, rotated))
     uniform = 1.7 * F0_SQUARE.cdf(drawn["energy"])
-    assert compare.of_distributions(uniform, rotated) > compare.CAUGHT
+    assert compare.caught(compare.of_distributions(uniform, rotated))

@@ -60,7 +60,8 @@ class Run:
     def start(self, *words, cores=2, **environment):
         """Start Snakemake in a process group of its own; output goes to ``folder/out.txt``."""
         command = [sys.executable, "-m", "snakemake", "-c", str(cores), *self.targets]
-        known = {"KACSIM_CACHE_DIR": str(self.cache)} | environment
+        # Not printed: the PDF holds its date, and takes ten seconds.
+        known = {"KACSIM_CACHE_DIR": str(self.cache), "KACSIM_CHROMIUM": ""} | environment
         with open(self.folder / "out.txt", "w", encoding="utf-8") as out:
             return subprocess.Popen(
                 [*command, *SMOKE, *words],
@@ -151,7 +152,7 @@ def kill_everything(make, expected, full, n_kills=None):
     """Kill the process group at random moments; then go on."""
     choice, run, killed = random.Random(11), make(), 0
     for _ in range(n_kills or (20 if full else 3)):
-        process = run.start()
+        process = run.start(KACSIM_CHROMIUM=shutil.which("chromium") or "")
         time.sleep(choice.uniform(1.5, 9.0 if full else 5.0))
         _signal(process, signal.SIGKILL)
         killed += process.wait() == -signal.SIGKILL
@@ -191,17 +192,18 @@ def _command(pid):
 def interrupt(make, expected, full):
     """End a run by Ctrl-C or by SIGTERM: no lock and no partial file is left."""
     choice, tries = random.Random(13), 0
-    for number in (signal.SIGINT, signal.SIGTERM) * (5 if full else 1):
+    for number in (signal.SIGINT, signal.SIGTERM):
         run = make()
-        process = run.start()
-        time.sleep(choice.uniform(3.0, 9.0))
-        _signal(process, number)
-        process.wait()
-        time.sleep(0.5)
-        if run.leftovers():
-            raise FaultError(f"{signal.Signals(number).name} left {run.leftovers()}")
+        for _ in range(5 if full else 1):
+            process = run.start()
+            time.sleep(choice.uniform(3.0, 9.0))
+            _signal(process, number)
+            process.wait()
+            time.sleep(0.5)
+            if run.leftovers():
+                raise FaultError(f"{signal.Signals(number).name} left {run.leftovers()}")
+            tries += 1
         same(run.complete(), expected, signal.Signals(number).name)
-        tries += 1
     return tries
 
 
@@ -218,12 +220,12 @@ def break_files(make, expected, full):
         files = sorted(base.glob(kinds[kind]))
         if way is swap and len(files) < 2:
             continue
-        for victim in choice.sample(files, min(len(files), 2 if full else 1)):
-            way(victim, files)
-            if kind == "kernel cache":
-                shutil.rmtree(run.folder / "results/samples")
-            _recover(run, victim, expected, f"{way.__name__} {kind}")
-            tries += 1
+        victim = choice.choice(files)
+        way(victim, files)
+        if kind == "kernel cache":
+            shutil.rmtree(run.folder / "results/samples")
+        _recover(run, victim, expected, f"{way.__name__} {kind}")
+        tries += 1
     return tries
 
 

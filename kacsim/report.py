@@ -34,6 +34,7 @@ from kacsim.report_numbers import (
     pm,
     power,
     printed,
+    subscripted,
     typeset,
 )
 
@@ -103,6 +104,7 @@ def environment():
     trim = {"trim_blocks": True, "lstrip_blocks": True}
     env = jinja2.Environment(loader=loader, autoescape=True, undefined=undefined, **trim)
     env.globals |= {"number": number, "listed": listed, "pm": pm, "signs": SIGNS}
+    env.filters["subscripted"] = subscripted
     env.globals["critical_time"] = bkw.critical_time
     return env
 

@@ -3,6 +3,8 @@
 import math
 import re
 
+from markupsafe import Markup, escape
+
 THIN_SPACE, FIXED_SPACE, MINUS = "\u202f", "\u00a0", "\u2212"
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -82,6 +84,11 @@ def typeset(text):
 def bound(text):
     """Return a text whose formulas and estimates do not break at = and at ±."""
     return re.sub(" ([=±]) ", rf"{FIXED_SPACE}\1{FIXED_SPACE}", text)
+
+
+def subscripted(text):
+    """Return a text, escaped, in which N_t and the like have a subscript of one character."""
+    return Markup(re.sub(r"\b([^\W\d_])_(\w)\b", r"\1<sub>\2</sub>", str(escape(text))))
 
 
 def printed(value, error):

@@ -68,3 +68,8 @@ def test_a_list_in_words(values, text):
 )
 def test_a_number_beside_an_estimate_has_its_digits(value, error, text):
     assert report_numbers.beside(value, error) == text
+
+
+def test_subscripts():
+    text = report_numbers.subscripted("u N_t < F_j, L_y = 2: n_draws, x_max")
+    assert text == "u N<sub>t</sub> &lt; F<sub>j</sub>, L<sub>y</sub> = 2: n_draws, x_max"

@@ -14,6 +14,8 @@ from kacsim.checks import BudgetError
 USAGE_ERROR = 2
 JOIN = "--and"  # between the cases of one `sample` command
 COMPLETION = "--print-completion"
+# What reads the schema, the texts or the published numbers, which are not part of the package.
+OF_A_CLONE = ("plan", "verify", "reduce", "draw", "report", "keep", "kept")
 # command -> (what it does, an example)
 COMMANDS = {
     "plan": ("check a configuration and list its cases", "plan --item kac_fig3"),
@@ -80,8 +82,14 @@ def main(argv=None):
     if threading.current_thread() is threading.main_thread():
         # A job that is told to end cleans up after itself.
         signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
-    requests = [_parser(words).parse_args(words) for words in _split(argv)]
+    parts = _split(argv)
+    requests = [_parser(words).parse_args(words) for words in parts]
     try:
+        if parts[0][0] in OF_A_CLONE and not plan.SCHEMA.is_file():
+            raise plan.PlanError(
+                f"kacsim {parts[0][0]}: needs a clone of the project; there, install by "
+                "pip install --no-deps --editable ."
+            )
         if len(requests) > 1:
             return commands.run_sample_all(requests)
         return requests[0].run(requests[0]) or 0

@@ -8,7 +8,7 @@ import subprocess
 import netCDF4
 import pytest
 
-from kacsim import boltzmann, cli, estimating, kac, sampling, store, verify
+from kacsim import boltzmann, cli, estimating, kac, plan, sampling, store, verify
 from kacsim.cases import make_case
 from kacsim.meanings import DRAWS, MEANINGS
 from kacsim.progress import Progress
@@ -56,6 +56,13 @@ def test_the_shell_completes_commands(words, offered, capsys):
     )
     shown = subprocess.run(["bash"], input=script, capture_output=True, text=True, check=True)
     assert shown.stdout.split() == offered
+
+
+@pytest.mark.parametrize("command", ["plan", "kept"])
+def test_a_package_without_its_clone_says_so(command, monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(plan, "SCHEMA", tmp_path / "config.schema.yaml")
+    assert cli.main([command]) == 2
+    assert capsys.readouterr().err.startswith(f"kacsim {command}: needs a clone of the project;")
 
 
 def test_plan_is_a_table_with_costs(capsys):

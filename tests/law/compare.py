@@ -6,6 +6,7 @@ negative control, a mutant, must be `caught`.
 """
 
 import math
+import os
 
 import numpy as np
 from scipy import special
@@ -13,10 +14,18 @@ from scipy import special
 LIMIT = 4.0
 CAUGHT = 6.0
 FALSE_ALARM = 2.0 * special.ndtr(-LIMIT)  # 6.3e-5 for each z
+# The expensive tests draw this many times what they state: more to look sharper, fewer to sweep
+# many seeds, which a null does not mind but no mutant is caught with.
+SHARE = float(os.environ.get("KACSIM_TEST_DRAWS", "1"))
 SLOPE = 6.5  # near Cov(v**4, v**2) / Var(v**2): 5 under f0, 9 at equilibrium
 
 
 seen = []  # what tests took as null in this process: tests/false_alarms.py counts them
+
+
+def scaled(n_draws):
+    """Return a number of draws as KACSIM_TEST_DRAWS wants it."""
+    return round(n_draws * SHARE)
 
 
 def ok(*zs):
@@ -26,8 +35,8 @@ def ok(*zs):
 
 
 def caught(*zs):
-    """Return whether every z rejects its null, as that of a mutant must."""
-    return all(abs(z) > CAUGHT for z in zs)
+    """Return whether every z rejects its null, as a mutant's must; fewer draws cannot tell."""
+    return SHARE < 1.0 or all(abs(z) > CAUGHT for z in zs)
 
 
 def of_p(p):

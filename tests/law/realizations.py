@@ -8,7 +8,7 @@ from law import literal_trees as printed
 
 from kacsim.streams import new_stream
 
-N, N_MUTANT = 1_000_000, 100_000
+N, N_MUTANT = compare.scaled(1_000_000), 100_000
 Q, VELOCITY = 1.7, np.array([1.0, 0.5, 2.0])
 RATE, START, MAJORANT = 2.3, 0.4, 1.6
 # (n, kappa, omega, c_eq, eps, phi0): n kappa omega**2 / c_eq**3 = 2.7

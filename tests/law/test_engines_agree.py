@@ -42,6 +42,7 @@ def fill(kernel, arguments, n_draws, key):
 
 def sample(algorithm, engine, n, time, steps, n_draws, seed):
     kernel, arguments = draws.kernel_of(parameters_of(algorithm, engine, n, time, steps))
+    n_draws = compare.scaled(n_draws)
     return fill(kernel, (arguments, ()), n_draws, (seed, f"engines {algorithm} {engine} {n}"))
 
 

@@ -22,7 +22,11 @@ NAME = "kac.draw_equilibrium"
 def drawn(request, seed):
     n, energy, n_draws = request.param
     v, times = kac.draw_equilibrium(
-        n_particles=n, tolerance=1e-4, n_draws=n_draws, seed=seed, energy=energy
+        n_particles=n,
+        tolerance=1e-4,
+        n_draws=compare.scaled(n_draws),
+        seed=seed,
+        energy=energy,
     )
     return n, energy, v, times
 
@@ -56,7 +60,8 @@ def test_draws_of_one_call_are_independent(n, seed):
 
     Mutant: energies averaged over neighbours, as if inputs drawn ahead were used twice.
     """
-    v, _ = kac.draw_equilibrium(n_particles=n, tolerance=1e-2, n_draws=400_000, seed=seed)
+    size = compare.scaled(400_000)
+    v, _ = kac.draw_equilibrium(n_particles=n, tolerance=1e-2, n_draws=size, seed=seed)
     square = v**2
     assert compare.ok(compare.of_mean(square[::2] * square[1::2], 2.25))
     mixed = 0.95 * square[::2] + 0.05 * square[1::2]
@@ -124,10 +129,11 @@ def test_later_draws_of_a_call_have_the_times_of_first_draws(seed):
     """Null: one mean and mean square. 2e4 first draws, equal to the printed algorithm's, and 2e5
     draws of one call see 0.6 of 87 steps. Mutant: twice the tolerance.
     """
-    first = np.array([first_draw(7, None, 1e-2, k)[0] for k in range(seed, seed + 20_000)])
+    seeds = range(seed, seed + compare.scaled(20_000))
+    first = np.array([first_draw(7, None, 1e-2, k)[0] for k in seeds])
     for tolerance, same in ((1e-2, True), (2e-2, False)):
         _, times = kac.draw_equilibrium(
-            n_particles=7, tolerance=tolerance, n_draws=200_000, seed=10**9 + seed
+            n_particles=7, tolerance=tolerance, n_draws=compare.scaled(200_000), seed=10**9 + seed
         )
         zs = [compare.of_means(times**k, first**k) for k in (1, 2)]
         assert (compare.ok if same else compare.caught)(*zs)

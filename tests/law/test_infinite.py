@@ -16,6 +16,7 @@ N_DRAWS = 4_000_000
 
 
 def velocities(n, time, seed, n_draws=N_DRAWS):
+    n_draws = compare.scaled(n_draws)
     return kac.draw(
         "poisson", n_particles=n, time=time, n_draws=n_draws, seed=seed, collision_rate=RATE
     )

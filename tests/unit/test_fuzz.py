@@ -38,7 +38,9 @@ VALUES = st.recursive(
     lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(TEXTS, inner, max_size=2)),
     max_leaves=4,
 )
-LINE = re.compile(r"^\S+: [\w.\[\]\\$' ;\"/()-]*.*: .+$", re.DOTALL)
+# A mistake in a file, and one on a command line.
+LINE = re.compile(r"config/(config|smoke)\.yaml: .+: .+")
+WORD = re.compile(r"(kacsim.*|--[a-z-]+.*): .+")
 
 
 @functools.cache
@@ -81,7 +83,6 @@ def test_a_configuration_is_a_plan_or_is_refused_line_by_line(config):
         checked = plan.Plan(copy.deepcopy(config), FILES)
     except plan.PlanError as error:
         for line in str(error).split("\n"):
-            assert line.startswith(tuple(f"{file}: " for file in FILES)), line
             assert LINE.fullmatch(line), line
         return
     for case in checked.cases.values():
@@ -134,8 +135,8 @@ def test_a_command_draws_or_is_refused_in_one_line(words, monkeypatch, capsys, t
     assert status in (0, 2)
     if status == 2:
         assert not drawn
-        assert err.strip()
-        assert "Traceback" not in err
+        for line in err.removesuffix("\n").split("\n"):
+            assert WORD.fullmatch(line), err
     else:
         assert drawn
 

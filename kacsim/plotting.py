@@ -88,12 +88,15 @@ def density_axis(axis):
     axis.set_ylabel("density")
 
 
-def legends_above(axes, share=0.4):
+def legends_above(axes, share=0.4, ncols=1):
     """Put the legends above the data, on room made for them as a share of the common axis."""
     low, high = axes[0].get_ylim()
+    room = 1.0 / (1.0 - share)
     for axis in axes:
-        axis.set_ylim(low, low + (high - low) / (1.0 - share))
-        axis.legend(loc="upper center", frameon=False)
+        is_log = axis.get_yscale() == "log"
+        axis.set_ylim(low, low * (high / low) ** room if is_log else low + (high - low) * room)
+        tight = {"columnspacing": 0.6, "handletextpad": 0.1} if ncols > 1 else {}
+        axis.legend(loc="upper center", frameon=False, ncols=ncols, **tight)
 
 
 def plain_log(axis):

@@ -141,7 +141,7 @@ def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):
         low.set_ylabel("relative error")
         _mark(top, low, critical, k, value, along)
     axes[0].legend()
-    axes[count].legend()
+    plotting.legends_above(axes[count : count + 1], share=0.2, ncols=2)
     return figure
 
 

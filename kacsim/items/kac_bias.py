@@ -150,7 +150,7 @@ def draw(dataset):
     axes[0].set_title(f"step {settings['fixed_time_step']:g}")
     axes[0].set_xlabel("number of particles $N$")
     axes[0].set_ylabel("E $v_1^4$ at $t$ = " + f"{settings['time']:g}")
-    axes[1].set_title(f"N = {settings['fixed_n_particles']}")
+    axes[1].set_title(f"$N$ = {settings['fixed_n_particles']}")
     axes[1].set_xlabel("time step $\\Delta t$")
     axes[0].legend()
     return figure

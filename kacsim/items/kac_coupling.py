@@ -127,6 +127,6 @@ def draw(dataset):
     axes[1].set_xlabel("tolerance $\\varepsilon$")
     axes[0].set_ylabel("coupling time in steps")
     axes[0].set_title("$\\varepsilon$ = " + plotting.power_of_ten(settings["fixed_tolerance"]))
-    axes[1].set_title(f"N = {settings['fixed_n_particles']}")
+    axes[1].set_title(f"$N$ = {settings['fixed_n_particles']}")
     axes[0].legend()
     return figure

@@ -131,15 +131,15 @@ def draw(dataset):
     for axis, reading in zip(axes, READINGS, strict=True):
         for k, n in enumerate(dataset.n_particles.values):
             line = here.sel(reading=reading, n_particles=n)
-            plotting.points(axis, halvings, line.tvn, line.tvn_error, k, f"N = {n}")
+            plotting.points(axis, halvings, line.tvn, line.tvn_error, k, f"$N$ = {n}")
         least = int(dataset.reference_n[0])
         mean = _reference(dataset, "bird", least)
         band = mean.value - mean.standard_error, mean.value + mean.standard_error
         axis.axhspan(*band, color="0.8", lw=0, zorder=0)
-        axis.axhline(mean.value, color="black", lw=1, label=f"Bird, N = {least}")
+        axis.axhline(mean.value, color="black", lw=1, label=f"Bird, $N$ = {least}")
         plotting.floor(axis, float(here.floor))
         axis.set_title(NAMES[reading])
-        axis.set_xlabel("k, time step $\\Delta t = 2/2^k$")
+        axis.set_xlabel("$k$, time step $\\Delta t = 2/2^k$")
     axes[0].set_ylabel("mean TVN against eq. (8)")
     axes[0].set_yscale("log")
     plotting.plain_log(axes[0].yaxis)

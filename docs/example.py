@@ -1,6 +1,6 @@
 """Use what a run has left: samples, datasets and estimators, from Python.
 
-Run it from the folder where Snakemake ran: ``python docs/example.py``.
+Run it in the folder where Snakemake ran: ``PYTHONPATH=. .venv/bin/python docs/example.py``.
 """
 
 import json
@@ -31,9 +31,9 @@ print(figure.attrs["title"])
 print(figure)
 
 # The estimators need no files.
-probe = kac.estimate_density(6.0, 1.0, n_realizations=20_000, seed=1)
+probe = kac.estimate_density(6.0, 0.4, n_realizations=20_000, seed=1)
 print(
-    f"f(6, 1) = {probe.mean:.3e} +- {probe.standard_error:.1e}, exact {kac.density(6.0, 1.0):.3e}"
+    f"f(6, 0.4) = {probe.mean:.3e} +- {probe.standard_error:.1e}, exact {kac.density(6.0, 0.4):.3e}"
 )
 rare = boltzmann.estimate_bkw_fraction(6.0, 1.0, n_realizations=20_000, seed=1)
 print(f"fraction faster than 6 c_q: {rare.mean:.3e} +- {rare.standard_error:.1e}")

@@ -152,9 +152,22 @@ def _parser(words=()):
     return parser
 
 
+def _add_config(one):
+    files = "configuration of the run; later files override (default config/config.yaml)"
+    one.add_argument(
+        "--config", nargs="+", default=["config/config.yaml"], metavar="FILE", help=files
+    )
+
+
+def _sample_file(text):
+    if not text.endswith((".nc", ".csv")):
+        raise argparse.ArgumentTypeError(f"{text!r}: must end in .nc or .csv")
+    return text
+
+
 def _add_configured(planning, verifying):
     for one in (planning, verifying):
-        one.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
+        _add_config(one)
         one.add_argument("--item", help="the cases of one item only")
     planning.add_argument("--ids", action="store_true", help="print the ids of the cases alone")
     one = verifying
@@ -175,7 +188,7 @@ def _add_stages(reducing, drawing, reporting, compiling):
     reporting.add_argument("--figures", default="results/figures", metavar="FOLDER")
     reporting.add_argument("--items", nargs="+", required=True)
     reporting.add_argument("--output", required=True)
-    reporting.add_argument("--recipe", default="snakemake -c2", help="what the page says to run")
+    reporting.add_argument("--options", default="", help="of the command on the page")
     compiling.add_argument("module", choices=samplers.KERNEL_MODULES)
     compiling.add_argument("--output", required=True, help="file that gets the sources' hash")
 
@@ -184,7 +197,7 @@ def _add_pages(printing, keeping, asking):
     printing.add_argument("--report", default="results/report/report.html", metavar="FILE")
     printing.add_argument("--output", default="results/report/report.pdf", metavar="FILE")
     keeping.add_argument("--results", default="results", metavar="FOLDER")
-    keeping.add_argument("--config", nargs="+", default=["config/config.yaml"], metavar="FILE")
+    _add_config(keeping)
     for one in (keeping, asking):
         one.add_argument("--folder", default="reports/latest", help="where the report is kept")
 
@@ -209,7 +222,9 @@ def _add_sampling(parent):
         one.add_argument("--n-draws", type=_integer, required=True, help="draws of a replicate")
         one.add_argument("--n-replicates", type=_integer, default=1, help="default 1")
         one.add_argument("--seed", type=_integer, required=True)
-        one.add_argument("--output", required=True, help="file ending in .nc or .csv")
+        one.add_argument(
+            "--output", type=_sample_file, required=True, help="file ending in .nc or .csv"
+        )
         yield one
 
 

@@ -155,7 +155,7 @@ def run_report(arguments):
     for name in arguments.items:
         _known_item(name)
     folders = arguments.datasets, arguments.figures
-    report.write(arguments.items, *folders, arguments.output, arguments.recipe)
+    report.write(arguments.items, *folders, arguments.output, arguments.options)
 
 
 def run_print(arguments):

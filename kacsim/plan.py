@@ -195,7 +195,8 @@ class Plan:
             for key in [key for key in path if isinstance(key, str)]:
                 content = content.get(key, MISSING) if isinstance(content, dict) else MISSING
             if content is not MISSING:
-                return file
+                overridden = len(path) == 1 and content != self.config.get(path[0])
+                return "--config" if overridden and not isinstance(content, dict) else file
         return self.files[0]
 
     def shard(self, wildcards):
@@ -232,15 +233,17 @@ class Plan:
         return json.dumps(self.settings[name], sort_keys=True)
 
 
-def recipe(files, values):
-    """Return the start of the command that runs the workflow again with this configuration.
+def recipe_options(files, values):
+    """Return what follows ``snakemake -c2 ITEM`` to run with this configuration again.
+
+    The item comes first, since ``--configfile`` takes all names that follow it for files.
 
     Parameters
     ----------
     files : configuration files beside the default one
     values : key -> value of ``--config``
     """
-    words = ["snakemake", "-c2"]
+    words = []
     if files:
         near = [Path(file).absolute() for file in files]
         words += ["--configfile"]

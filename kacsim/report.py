@@ -41,10 +41,9 @@ from kacsim.report_numbers import (
 TEXTS = ROOT / "reports"
 SIGNS = {"reproduced": "✓", "corrected": "↻", "not reproduced": "✗", "undecided": "?"}
 FORMATS = ("svg", "png", "pdf")  # every figure is drawn in all of them
-RECIPE = "snakemake -c2"
 
 
-def write(items, datasets_folder, figures_folder, output, recipe=RECIPE):
+def write(items, datasets_folder, figures_folder, output, options=""):
     """Write the report of some items, in the given order, to the file `output`.
 
     Parameters
@@ -52,7 +51,8 @@ def write(items, datasets_folder, figures_folder, output, recipe=RECIPE):
     items : names, in the order of the page
     datasets_folder, figures_folder : where their files lie
     output : file to create or replace
-    recipe : what makes the results again, followed by the name of an item or by ``all``
+    options : of the ``snakemake`` command that makes the results again; those of a run with other
+        values than the project's own, which the page then says
 
     Raises
     ------
@@ -88,7 +88,7 @@ def write(items, datasets_folder, figures_folder, output, recipe=RECIPE):
         sources=sorted({dataset.attrs["source"] for dataset in datasets.values()}),
         seeds=sorted({dataset.attrs["settings"]["seed"] for dataset in datasets.values()}),
         configuration=_configuration(datasets),
-        recipe=recipe,
+        options=options,
     )
     store.replace_file(output, lambda name: Path(name).write_text(html, encoding="utf-8"))
 

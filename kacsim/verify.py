@@ -33,7 +33,7 @@ def verify(case, folder, progress=None):
     """
     path = Path(folder) / f"{case.id}.nc"
     if not path.exists():
-        return MISSING, f"{path}: not there; run snakemake to draw it"
+        return MISSING, f"{path}: not there; drawn with another --config, or not yet by snakemake"
     try:
         kept = store.read_sample(path, case)
     except store.StoreError as error:

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from scipy import linalg
 
-from kacsim import kac
-from kacsim.kac import moments
+from kacsim import checks, kac, samplers
+from kacsim.kac import draws, moments
 
 ANGLES = np.array([1, 3, 5, 7]) * math.pi / 8
 RATE, TIME = 0.9, 1.7
@@ -203,3 +203,11 @@ def test_equilibrium_of_the_process_is_that_of_the_beta_law_on_average(n):
     limit = 3 * mean_square / (n * (n + 2))
     assert kac.fourth_moment(1e3, n) == pytest.approx(limit, rel=1e-12)
     assert kac.fourth_moment(0.0, n) == 15 / 4
+
+
+def test_the_lists_that_name_an_algorithm_agree():
+    assert set(draws.KERNELS) == set(samplers.ALGORITHM_FILES) == set(checks.ALGORITHMS)
+    assert set(checks.ALGORITHMS) <= set(checks.NAMES)
+    for name in checks.ALGORITHMS:
+        step = {"time_step": 0.5} if name in checks.STEPPED else {}
+        assert 3.0 < kac.fourth_moment(1.0, 7, algorithm=name, **step) < 8.0

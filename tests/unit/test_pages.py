@@ -93,10 +93,10 @@ def test_run_times_without_jobs_say_so(tmp_path):
 @pytest.mark.parametrize(
     ("files", "values", "command"),
     [
-        ([], {}, "snakemake -c2"),
-        ([plan.ROOT / "config/smoke.yaml"], {}, "snakemake -c2 --configfile config/smoke.yaml"),
-        (["/a b/c.yaml"], {"seed": 7}, "snakemake -c2 --configfile '/a b/c.yaml' --config seed=7"),
+        ([], {}, ""),
+        ([plan.ROOT / "config/smoke.yaml"], {}, "--configfile config/smoke.yaml"),
+        (["/a b/c.yaml"], {"seed": 7}, "--configfile '/a b/c.yaml' --config seed=7"),
     ],
 )
 def test_the_page_tells_the_command_of_this_configuration(files, values, command):
-    assert plan.recipe(files, values) == command
+    assert plan.recipe_options(files, values) == command

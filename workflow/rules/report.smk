@@ -2,7 +2,7 @@
 
 # What the page tells a reader to run: the configuration is given as it was given to this run.
 own_files = [file for file in CONFIG_FILES if file != ROOT / "config/config.yaml"]
-RECIPE = plan.recipe(own_files, workflow.config_settings.config)
+OPTIONS = plan.recipe_options(own_files, workflow.config_settings.config)
 
 
 rule report:
@@ -32,13 +32,13 @@ rule report:
         runtime=10,
     params:
         wanted=items.NAMES,
-        recipe=RECIPE,
+        options=OPTIONS,
         code=source_hash("report.py", "report_numbers.py", "store.py"),
     message:
         "Writing the report"
     shell:
         "kacsim report --items {params.wanted} --datasets results/datasets"
-        " --figures results/figures --recipe {params.recipe:q} --output {output}"
+        " --figures results/figures --options={params.options:q} --output {output}"
         " > {log} 2>&1"
 
 

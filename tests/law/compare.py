@@ -34,6 +34,11 @@ def ok(*zs):
     return all(abs(z) <= LIMIT for z in zs)
 
 
+def controls(*mutations):
+    """Return the mutations to try: none if fewer draws could not tell."""
+    return mutations if SHARE >= 1.0 else ()
+
+
 def caught(*zs):
     """Return whether every z rejects its null, as a mutant's must; fewer draws cannot tell."""
     return SHARE < 1.0 or all(abs(z) > CAUGHT for z in zs)

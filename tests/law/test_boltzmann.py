@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from law import compare
 from law import literal_trees as printed
-from law.compare import caught, ok
+from law.compare import caught, controls, ok
 from law.realizations import (
     GAS,
     LATE,
@@ -61,12 +61,12 @@ def test_bkw(time, seed):
 def test_bkw_as_printed_and_mutants(seed):
     """2 z as printed, and what the same z makes of mutants at a tenth of the realizations."""
     exact = bkw.density(np.linalg.norm(VELOCITY), 0.5, Q)
-    for mutation in (printed.AS_PRINTED, printed.OLD_VELOCITY, printed.ONE_FOR_TWO):
+    for mutation in (printed.AS_PRINTED, *controls(printed.OLD_VELOCITY, printed.ONE_FOR_TWO)):
         options = {"seed": seed, "name": "bkw", "mutation": mutation}
         z = compare.of_mean(drawn(printed.bkw_values, VELOCITY, 0.5, Q, **options), exact)
         assert (ok if mutation == printed.AS_PRINTED else caught)(z)
     exact = bkw.fraction(6.0, 1.0, Q)
-    for mutation in (printed.AS_PRINTED, printed.FORGET_4_PI):
+    for mutation in (printed.AS_PRINTED, *controls(printed.FORGET_4_PI)):
         options = {"seed": seed, "name": "fraction", "mutation": mutation}
         z = compare.of_mean(drawn(printed.bkw_fraction_values, 6.0, 1.0, Q, **options), exact)
         assert (ok if mutation == printed.AS_PRINTED else caught)(z)
@@ -100,7 +100,8 @@ def test_literal_and_tree_of_the_trap_agree(seed):
     error = math.sqrt(alone[0] * (1.0 - alone[0]) * (1.0 / N + 1.0 / calls.size))
     assert ok((alone[0] - alone[1]) / error)
     # Negative controls: a tenth more collisions, and another speed.
-    for other in ((0.8, 0.5, 1.5, 3.0, 0.3, False), (0.8, 0.9, 1.5, 2.7, 0.3, False)):
+    others = (0.8, 0.5, 1.5, 3.0, 0.3, False), (0.8, 0.9, 1.5, 2.7, 0.3, False)
+    for other in controls(*others):
         values, calls = kernel_draws(literal_trap.estimate, other, 300_000, seed, "other trap")
         assert caught(compare.of_distributions(several[0], values[calls > 1])) or caught(
             compare.of_means(calls, tree[1])
@@ -154,7 +155,7 @@ def test_extinction(majorant, seed):
     # The standard error of the sample variance, from the fourth moment of the printed algorithm.
     error = ((values - f) ** 2).std() / math.sqrt(N)
     assert ok((one.variance - variance) / error)
-    for mutation in (printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
+    for mutation in controls(printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
         options = {"seed": seed, "name": "extinction", "mutation": mutation}
         values = drawn(printed.extinction_values, *arguments, **options)
         assert caught(compare.of_mean(values, f))
@@ -182,7 +183,7 @@ def test_kac_as_printed_and_mutants(seed):
     """2 z as printed."""
     for v in (0.7, 2.5):
         exact = kac.density(v, 0.5, 0.9)
-        for mutation in (printed.AS_PRINTED, printed.OLD_VELOCITY, printed.ONE_FOR_TWO):
+        for mutation in (printed.AS_PRINTED, *controls(printed.OLD_VELOCITY, printed.ONE_FOR_TWO)):
             options = {"seed": seed, "name": "kac", "mutation": mutation, "n": 400_000}
             z = compare.of_mean(drawn(printed.kac_values, v, 0.5, 0.9, **options), exact)
             assert (ok if mutation == printed.AS_PRINTED else caught)(z)
@@ -222,7 +223,7 @@ def test_the_traps_mean_does_not_depend_on_the_sampling_laws(seed):
             assert ok(z_between(trap_at(*probe, LATE, seed + 1000 + k, **laws), published))
     published = trap_at(PLACE, SPEED, LATE, seed).mean
     wrong = printed.UNWEIGHTED_SPREAD, printed.UNSAMPLED_TILT, printed.UNWEIGHTED_MAJORANT
-    for mutation in wrong:
+    for mutation in controls(*wrong):
         assert caught(compare.of_mean(printed_trap(seed, mutation)[0], published))
 
 
@@ -247,7 +248,7 @@ def test_trap_as_printed(seed):
     alone = (nodes == 1).mean(), (calls == 1).mean()
     error = math.sqrt(alone[0] * (1.0 - alone[0]) * (1.0 / N + 1.0 / calls.size))
     assert ok((alone[0] - alone[1]) / error)
-    for mutation in (printed.OLD_VELOCITY, printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
+    for mutation in controls(printed.OLD_VELOCITY, printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
         values, calls = printed_trap(seed, mutation)
         assert caught(z_from(values, one))
         assert caught(compare.of_distributions(ratios[nodes > 1], values[calls > 1]))
@@ -257,7 +258,7 @@ def test_shares_of_the_trap_as_printed(seed):
     """2 z: Algorithm 7, and what the same z makes of a forgotten 4 pi."""
     for radius in (0.4, 2.5):
         one = boltzmann.estimate_trap_fraction(radius, LATE, n_realizations=N, seed=seed, **TRAP)
-        for mutation in (printed.AS_PRINTED, printed.FORGET_4_PI):
+        for mutation in (printed.AS_PRINTED, *controls(printed.FORGET_4_PI)):
             options = {"seed": seed, "name": "share", "mutation": mutation}
             values = drawn(printed.trap_fraction_values, radius, LATE, GAS, False, **options)
             assert (ok if mutation == printed.AS_PRINTED else caught)(z_from(values, one))
@@ -280,7 +281,7 @@ def test_mass_and_energy_of_the_trap(phase, seed):
 @pytest.mark.parametrize(("energy", "exact"), [(False, 1.0), (True, 3.0)])
 def test_mass_and_energy_as_printed_and_mutants(energy, exact, seed):
     """2 z as printed; collisions without loss keep neither."""
-    for mutation in (printed.AS_PRINTED, printed.FORGET_LOSS):
+    for mutation in (printed.AS_PRINTED, *controls(printed.FORGET_LOSS)):
         options = {"seed": seed, "name": "mass", "mutation": mutation, "n": 400_000}
         values = drawn(printed.trap_fraction_values, 0.0, LATE, GAS, energy, **options)
         z = compare.of_mean(values, exact)

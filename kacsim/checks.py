@@ -25,6 +25,7 @@ NAMES = {
 ENGINES = ("ancestral", "forward")
 RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
 
+LARGEST_COUNT = 2**63 - 1  # of draws, points and the like; seeds may be larger
 LARGEST = 1e50  # of any parameter: its products stay within double precision
 LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
 LONGEST_LITERAL = 10.0  # mean collision times; plain recursion has no budget
@@ -112,6 +113,8 @@ def count(name, value, least=1):
     """Yield a problem unless the value is an integer of at least `least`."""
     if not _is_integer(value) or value < least:
         yield Problem(name, value, f"must be an integer of at least {least}")
+    elif value > LARGEST_COUNT and name != "seed":
+        yield Problem(name, value, f"must be at most {LARGEST_COUNT}")
 
 
 def one_of(name, value, allowed):

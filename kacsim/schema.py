@@ -8,6 +8,7 @@ from pathlib import Path
 import jsonschema
 import yaml
 
+from kacsim.checks import LARGEST_COUNT
 from kacsim.plan import MISSING
 
 
@@ -31,7 +32,18 @@ def complete(config, schema_file):
     )
     validator = strict(schema)
     errors = sorted(validator.iter_errors(config), key=lambda error: list(map(str, error.path)))
-    return config, [problem for error in errors for problem in _problems(error)]
+    problems = [problem for error in errors for problem in _problems(error)]
+    return config, problems + list(_huge(config, ()))
+
+
+def _huge(value, path):
+    """Yield the whole numbers that no counter holds; a seed may be any."""
+    if isinstance(value, (dict, list)):
+        inside = value.items() if isinstance(value, dict) else enumerate(value)
+        for key, one in inside:
+            yield from _huge(one, (*path, key))
+    elif isinstance(value, int) and abs(value) > LARGEST_COUNT and path != ("seed",):
+        yield path, value, f"must be at most {LARGEST_COUNT}"
 
 
 def _type_checker():

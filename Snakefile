@@ -43,7 +43,7 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
     )
 
 try:
-    the_plan = plan.Plan(config, CONFIG_FILES)
+    the_plan = plan.Plan(config, CONFIG_FILES, workflow.config_settings.config)
 except plan.PlanError as error:
     print(error, file=sys.stderr)
     sys.exit(2)

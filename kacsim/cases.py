@@ -6,7 +6,7 @@ import math
 import shlex
 from dataclasses import dataclass
 
-from kacsim import checks, checks_techniques
+from kacsim import checks, checks_boltzmann, checks_techniques
 from kacsim.samplers import (
     ALGORITHM_FILES,
     DEFAULTS,
@@ -121,8 +121,8 @@ class Case:
     def problems(self):
         """Return the list of what is wrong with the parameters and the size."""
         size = {"n_draws": self.n_draws, "n_replicates": self.n_replicates, "seed": self.seed}
-        home = checks if hasattr(checks, self.sampler) else checks_techniques
-        check = getattr(home, self.sampler)
+        homes = (checks, checks_boltzmann, checks_techniques)
+        check = next(getattr(home, self.sampler) for home in homes if hasattr(home, self.sampler))
         return [*check(**self.parameters), *checks.amount(**size), *self._shard_problems()]
 
     def _shard_problems(self):

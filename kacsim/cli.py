@@ -85,17 +85,19 @@ def main(argv=None):
     parts = _split(argv)
     requests = [_parser(words).parse_args(words) for words in parts]
     try:
-        if parts[0][0] in OF_A_CLONE and not plan.SCHEMA.is_file():
-            raise plan.PlanError(
-                f"kacsim {parts[0][0]}: needs a clone of the project; there, install by "
-                "pip install --no-deps --editable ."
-            )
+        _insist_on_clone(command=parts[0][0])
         if len(requests) > 1:
             return commands.run_sample_all(requests)
         return requests[0].run(requests[0]) or 0
     except (plan.PlanError, StoreError, BudgetError) as error:
         print(error, file=sys.stderr)
         return USAGE_ERROR
+
+
+def _insist_on_clone(command):
+    if command in OF_A_CLONE and not plan.SCHEMA.is_file():
+        advice = "there, install by pip install --no-deps --editable ."
+        raise plan.PlanError(f"kacsim {command}: needs a clone of the project; {advice}")
 
 
 def _split(argv):
@@ -121,7 +123,7 @@ def _parser(words=()):
         epilog=EPILOG,
         formatter_class=form,
     )
-    shtab.add_argument_to(parser, COMPLETION, help="for this shell, to be put where it looks")
+    shtab.add_argument_to(parser, COMPLETION, help="print what completes words in this shell")
     found = parser.add_subparsers(required=True, metavar="command")
     parts = {}
     for name, (text, example) in COMMANDS.items():
@@ -152,11 +154,11 @@ def _parser(words=()):
     return parser
 
 
-def _add_config(one):
-    files = "configuration of the run; later files override (default config/config.yaml)"
-    one.add_argument(
-        "--config", nargs="+", default=["config/config.yaml"], metavar="FILE", help=files
-    )
+def _add_config(*parsers):
+    text = "configuration of the run; later files override (default config/config.yaml)"
+    default = ["config/config.yaml"]
+    for one in parsers:
+        one.add_argument("--config", nargs="+", default=default, metavar="FILE", help=text)
 
 
 def _sample_file(text):
@@ -166,8 +168,8 @@ def _sample_file(text):
 
 
 def _add_configured(planning, verifying):
+    _add_config(planning, verifying)
     for one in (planning, verifying):
-        _add_config(one)
         one.add_argument("--item", help="the cases of one item only")
     planning.add_argument("--ids", action="store_true", help="print the ids of the cases alone")
     one = verifying

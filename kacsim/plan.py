@@ -99,6 +99,7 @@ class Plan:
     ----------
     config : dict, merged configuration
     files : paths that it came from, the last one that sets a key is named in messages
+    given : keys set by ``--config`` on the command line, which messages name instead of a file
 
     Raises
     ------
@@ -106,8 +107,9 @@ class Plan:
         Lists every problem, one line each: file, key, value and what is allowed.
     """
 
-    def __init__(self, config, files=("config",)):
+    def __init__(self, config, files=("config",), given=()):
         self.files = [os.path.relpath(file) if os.path.isabs(file) else str(file) for file in files]
+        self.given = set(given)
         from kacsim.schema import complete  # jsonschema is needed once, not by every job
 
         self.config, wrong = complete(config, SCHEMA)
@@ -186,7 +188,9 @@ class Plan:
             raise PlanError("\n".join(map(_in_one_line, lines)))
 
     def _file_of(self, path):
-        """Return the last file that sets the key of a path, the first file if none does."""
+        """Return where the key of a path was set last: on the command line, or in which file."""
+        if path and path[0] in self.given:
+            return "--config"
         for file in reversed(self.files):
             try:
                 content = _read_yaml(file)
@@ -195,8 +199,7 @@ class Plan:
             for key in [key for key in path if isinstance(key, str)]:
                 content = content.get(key, MISSING) if isinstance(content, dict) else MISSING
             if content is not MISSING:
-                overridden = len(path) == 1 and content != self.config.get(path[0])
-                return "--config" if overridden and not isinstance(content, dict) else file
+                return file
         return self.files[0]
 
     def shard(self, wildcards):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-# Tests import the statistics of tests/law/compare.py as law.compare, whatever the import mode.
+# Tests import law.compare, runs and faults from this folder, whatever the import mode.
 sys.path.insert(0, str(Path(__file__).parent))
 
 

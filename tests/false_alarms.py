@@ -24,11 +24,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from law import compare
 from scipy import special, stats
 
 ROOT = Path(__file__).resolve().parent.parent
 SPACING = 10**6  # some tests also use seeds a little above their own
-LEVELS = (1.0, 2.0, 3.0, 4.0)
+LEVELS = (1.0, 2.0, 3.0, compare.LIMIT)
 NULLS = "not caught"  # what is a negative control and nothing else is named so
 
 
@@ -40,8 +41,6 @@ class Recorder:
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_call(self, item):
-        from law import compare  # the tests put it on the path
-
         start = len(compare.seen)
         try:
             return (yield)
@@ -103,15 +102,15 @@ def judge(outcomes):
     for level in LEVELS:
         found, wanted, z = exceeded(outcomes, level)
         print(f"|z| > {level:.0f}: {found:6d}, expected {wanted:9.1f}, z = {z:5.2f}")
-        agree &= abs(z) <= LEVELS[-1]
+        agree &= abs(z) <= compare.LIMIT
     alarms = sum(any(alarm for _, alarm in one["failed"]) for one in outcomes)
-    stated = -math.expm1(size * math.log1p(-2.0 * special.ndtr(-LEVELS[-1])))
+    stated = -math.expm1(size * math.log1p(-compare.FALSE_ALARM))
     p = stats.binomtest(alarms, len(outcomes), stated).pvalue
     print(f"seeds with an alarm: {alarms}, stated {stated * len(outcomes):.1f}, p = {p:.3g}")
     others = [(one["seed"], name) for one in outcomes for name, alarm in one["failed"] if not alarm]
     for seed, name in others:
         print(f"failed otherwise: {name} with KACSIM_TEST_SEED={seed}")
-    return agree and p > 2.0 * special.ndtr(-LEVELS[-1]) and not others
+    return agree and p > compare.FALSE_ALARM and not others
 
 
 def main():

@@ -6,7 +6,6 @@
 
 import argparse
 import contextlib
-import hashlib
 import os
 import random
 import shutil
@@ -17,8 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-SMOKE = ("--configfile", "config/smoke.yaml")
+from runs import SMOKE, FaultError, Run, same
+
 KINDS = {  # kind of file -> pattern below the working folder
     "sample": "results/samples/*.nc",
     "dataset": "results/datasets/*.nc",
@@ -31,96 +30,6 @@ FIGURES = {  # of these the report finds out: a run of single items has no stage
     "pdf": "results/figures/*.pdf",
     "csv": "results/figures/*.csv",
 }
-
-
-class FaultError(AssertionError):
-    """A scenario that did not end as it must."""
-
-
-class Run:
-    """A copy of the project in which Snakemake runs, with a kernel cache of its own folder.
-
-    Parameters
-    ----------
-    folder : where to copy to
-    targets : names of items; none means everything
-    cache : folder of the compiled kernels, ``folder/kernels`` if not given
-    """
-
-    def __init__(self, folder, targets=(), cache=None):
-        self.folder, self.targets = Path(folder), targets
-        self.cache = Path(cache or self.folder / "kernels")
-        listed = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
-        found = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True)
-        for name in found.stdout.splitlines():
-            if (ROOT / name).is_file():
-                (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(ROOT / name, self.folder / name)
-
-    def start(self, *words, cores=2, **environment):
-        """Start Snakemake in a process group of its own; output goes to ``folder/out.txt``."""
-        command = [sys.executable, "-m", "snakemake", "-c", str(cores), *self.targets]
-        # Not printed: the PDF holds its date, and takes ten seconds.
-        known = {"KACSIM_CACHE_DIR": str(self.cache), "KACSIM_CHROMIUM": ""} | environment
-        with open(self.folder / "out.txt", "w", encoding="utf-8") as out:
-            return subprocess.Popen(
-                [*command, *SMOKE, *words],
-                cwd=self.folder,
-                env=os.environ | known,
-                stdout=out,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-            )
-
-    def run(self, *words, **choices):
-        """Run Snakemake to its end; return (exit status, output)."""
-        status = self.start(*words, **choices).wait()
-        return status, (self.folder / "out.txt").read_text(encoding="utf-8")
-
-    def complete(self, *words, **choices):
-        """Run Snakemake and insist on success; return the checksums."""
-        status, output = self.run(*words, **choices)
-        if status:
-            raise FaultError(f"exit {status}: {output[-2000:]}")
-        return self.checksums()
-
-    def resume(self, **choices):
-        """Go on after a kill, as the README says; return the checksums."""
-        self.run("--unlock")
-        return self.complete(**choices)
-
-    def checksums(self):
-        """Return file -> SHA-256 of everything that must not depend on the run."""
-        files = [*self.folder.glob("results/**/*")]
-        kept = [f for f in files if f.suffix in (".nc", ".png", ".svg", ".pdf", ".csv", ".html")]
-        kept = [f for f in kept if f.name not in ("report.pdf", "runtime.html")]
-        return {
-            str(f.relative_to(self.folder)): hashlib.sha256(f.read_bytes()).hexdigest()
-            for f in sorted(kept)
-        }
-
-    def leftovers(self):
-        """Return locks and temporary files that a run has left behind."""
-        locks = [*(self.folder / ".snakemake/locks").glob("*")]
-        return [str(f) for f in (*locks, *self.folder.glob("results/**/.*")) if f.is_file()]
-
-    def processes(self):
-        """Return the ids of processes that work in the folder."""
-        found = []
-        for process in Path("/proc").glob("[0-9]*"):
-            try:
-                if Path(os.readlink(process / "cwd")) == self.folder.resolve():
-                    found.append(int(process.name))
-            except OSError:
-                continue
-        return found
-
-
-def same(found, expected, what):
-    """Raise FaultError unless two sets of checksums are equal."""
-    if found != expected:
-        wrong = sorted(k for k in found.keys() | expected if found.get(k) != expected.get(k))
-        raise FaultError(f"{what}: {len(wrong)} files differ: {', '.join(wrong[:5])}")
 
 
 def other_circumstances(make, expected, full):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kacsim import checks
+from kacsim import checks, checks_boltzmann
 from kacsim.boltzmann import trap, trap_tree
 from kacsim.boltzmann.estimators import MAX_NODES, check, estimate_from, sizes, vector_of
 from kacsim.checks import BREATHING
@@ -11,10 +11,10 @@ from kacsim.checks import BREATHING
 def _problems(physics, choices):
     for name in ("amount", "cross_section", "angular_frequency", "rms_velocity"):
         yield from checks.positive(name, physics[name])
-    yield from checks.breathing("breathing", physics["breathing"])
+    yield from checks_boltzmann.breathing("breathing", physics["breathing"])
     yield from checks.finite("start_phase", physics["start_phase"])
-    yield from checks.one_of("initial", physics["initial"], checks.STARTS)
-    yield from checks.trap_choices(**choices)
+    yield from checks.one_of("initial", physics["initial"], checks_boltzmann.STARTS)
+    yield from checks_boltzmann.trap_choices(**choices)
 
 
 def _units(physics):
@@ -131,7 +131,7 @@ def estimate_trap_fraction(
     check(
         checks.not_negative("radius", radius),
         checks.not_negative("time", time),
-        _problems(physics, checks.PUBLISHED_CHOICES),
+        _problems(physics, checks_boltzmann.PUBLISHED_CHOICES),
         sizes(n_realizations, seed, max_nodes),
     )
     reduced, length = _units(physics)

@@ -23,8 +23,8 @@ def test_random_points_find_the_volume(dimension, seed):
     Mutant: one dimension less.
     """
     share, error = techniques.sphere_volume(dimension, 1_000_000, seed=seed)
-    assert compare.ok(abs(share - exact.ball_volume(dimension)) / error)
-    assert compare.caught(abs(share - exact.ball_volume(dimension - 1)) / error)
+    assert compare.ok((share - exact.ball_volume(dimension)) / error)
+    assert compare.caught((share - exact.ball_volume(dimension - 1)) / error)
 
 
 @pytest.mark.parametrize("generator", ["good", "exhausted", "congruential", "sobol"])
@@ -102,5 +102,5 @@ def test_area_of_exercise_3(exponent, seed):
 def test_any_function(seed):
     """1 z: the integral of exp over [-1, 2]. Mutant: over [-1, 1.9]."""
     value, error = techniques.integrate(np.exp, -1.0, 2.0, n_points=300_000, seed=seed)
-    assert compare.ok(abs(value - (math.exp(2) - math.exp(-1))) / error)
-    assert compare.caught(abs(value - (math.exp(1.9) - math.exp(-1))) / error)
+    assert compare.ok((value - (math.exp(2) - math.exp(-1))) / error)
+    assert compare.caught((value - (math.exp(1.9) - math.exp(-1))) / error)

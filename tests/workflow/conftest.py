@@ -6,12 +6,9 @@ import shutil
 import subprocess
 import sys
 from collections import Counter
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).resolve().parents[2]
-SMOKE = ("--configfile", "config/smoke.yaml")
+from runs import SMOKE, copy_project
 
 
 class Project:
@@ -52,27 +49,16 @@ class Project:
         path.write_text(text.replace(old, new, 1), encoding="utf-8")
 
 
-def copy_project(folder):
-    """Copy all files that git knows or would add."""
-    listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    for name in listed.stdout.splitlines():
-        if (ROOT / name).is_file():
-            target = folder / name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / name, target)
+def new_project(folder):
+    """Return a project in a folder of its own."""
+    copy_project(folder)
     return Project(folder)
 
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory):
     """Return a project in which the smoke run is complete; tests must leave it as it is."""
-    project = copy_project(tmp_path_factory.mktemp("finished"))
+    project = new_project(tmp_path_factory.mktemp("finished"))
     answer = project.snakemake(*SMOKE)
     assert answer.returncode == 0, answer.stdout + answer.stderr
     project.said = answer.stdout

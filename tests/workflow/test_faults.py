@@ -1,13 +1,10 @@
 """The scenarios of tests/faults.py on a few items: killed, broken, full, at the same time."""
 
 import os
-import sys
-from pathlib import Path
 
-import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import faults
+import pytest
+from runs import Run
 
 ITEMS = ("kac_fig4", "kac_fig6", "boltzmann_fig7")
 
@@ -15,7 +12,7 @@ ITEMS = ("kac_fig4", "kac_fig6", "boltzmann_fig7")
 @pytest.fixture(scope="module")
 def warm(tmp_path_factory):
     """Return (checksums of an undisturbed run, its kernel cache)."""
-    run = faults.Run(tmp_path_factory.mktemp("undisturbed"), ITEMS)
+    run = Run(tmp_path_factory.mktemp("undisturbed"), ITEMS)
     return run.complete(), run.cache
 
 
@@ -27,7 +24,7 @@ def test_same_bytes_after(scenario, warm, tmp_path):
     made = []
 
     def make():
-        made.append(faults.Run(tmp_path / str(len(made)), ITEMS, cache))
+        made.append(Run(tmp_path / str(len(made)), ITEMS, cache))
         return made[-1]
 
     assert scenario(make, expected, False) > 0

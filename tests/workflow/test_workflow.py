@@ -9,13 +9,14 @@ import sys
 
 import pytest
 import yaml
-from conftest import ROOT, SMOKE, copy_project
+from conftest import new_project
+from runs import ROOT, SMOKE
 
 from kacsim import items, plan
 
 
 def test_a_bare_dry_run_plans_every_job(tmp_path):
-    project = copy_project(tmp_path)
+    project = new_project(tmp_path)
     jobs = project.planned()
     full = plan.Plan(plan.read_config(tmp_path / "config/config.yaml"))
     assert jobs["sample"] == len(full.batches)
@@ -79,7 +80,7 @@ def test_every_job_has_a_log_and_a_benchmark(finished):
 
 
 def test_one_figure_runs_only_what_it_needs(tmp_path):
-    project = copy_project(tmp_path)
+    project = new_project(tmp_path)
     jobs = project.planned("kac_fig9", *SMOKE)
     # One of its two cases serves another item too, so each has a job of its own.
     assert jobs == {"compile": 1, "sample": 2, "reduce": 1, "draw": 1, "kac_fig9": 1}
@@ -157,7 +158,7 @@ def test_removing_a_figure_draws_it_alone(project):
     ],
 )
 def test_a_wrong_configuration_starts_nothing(tmp_path, config, message):
-    project = copy_project(tmp_path)
+    project = new_project(tmp_path)
     (tmp_path / "wrong.yaml").write_text(json.dumps(config), encoding="utf-8")
     answer = project.snakemake("--configfile", "wrong.yaml")
     assert answer.returncode == 2
@@ -167,7 +168,7 @@ def test_a_wrong_configuration_starts_nothing(tmp_path, config, message):
 
 @pytest.mark.parametrize("content", ["", "[1, 2]", "a: [", "- x\n- y"])
 def test_a_file_that_is_no_configuration_starts_nothing(tmp_path, content):
-    project = copy_project(tmp_path)
+    project = new_project(tmp_path)
     (tmp_path / "wrong.yaml").write_text(content, encoding="utf-8")
     answer = project.snakemake("--configfile", "wrong.yaml")
     assert answer.returncode != 0

@@ -156,11 +156,9 @@ def _mark(top, low, critical, k, value, along):
         return
     right = top.get_xlim()[1]
     if right > critical:
-        for axis in (top, low):
-            axis.axvspan(critical, right, color="0.9", zorder=0, lw=0)
+        for axis, label in ((top, "variance infinite"), (low, None)):
+            axis.axvspan(critical, right, color="0.9", zorder=0, lw=0, label=label)
             axis.set_xlim(right=right)
-        style = {"transform": top.transAxes, "ha": "right", "size": 7}
-        top.text(0.98, 0.05, "shaded: variance infinite", **style)
 
 
 def worst_batch(sample):

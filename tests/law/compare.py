@@ -16,32 +16,30 @@ CAUGHT = 6.0
 FALSE_ALARM = 2.0 * special.ndtr(-LIMIT)  # 6.3e-5 for each z
 # The expensive tests draw this many times what they state: more to look sharper, fewer to sweep
 # many seeds, which a null does not mind but no mutant is caught with.
-SHARE = float(os.environ.get("KACSIM_TEST_DRAWS", "1"))
+DRAWS_FACTOR = float(os.environ.get("KACSIM_TEST_DRAWS", "1"))
 SLOPE = 6.5  # near Cov(v**4, v**2) / Var(v**2): 5 under f0, 9 at equilibrium
-
-
-seen = []  # what tests took as null in this process: tests/false_alarms.py counts them
+null_zs = []  # of this process: tests/false_alarms.py counts them
 
 
 def scaled(n_draws):
     """Return a number of draws as KACSIM_TEST_DRAWS wants it."""
-    return round(n_draws * SHARE)
+    return round(n_draws * DRAWS_FACTOR)
 
 
 def ok(*zs):
     """Return whether every z agrees with its null."""
-    seen.extend(zs)
+    null_zs.extend(zs)
     return all(abs(z) <= LIMIT for z in zs)
 
 
 def controls(*mutations):
     """Return the mutations to try: none if fewer draws could not tell."""
-    return mutations if SHARE >= 1.0 else ()
+    return mutations if DRAWS_FACTOR >= 1.0 else ()
 
 
 def caught(*zs):
     """Return whether every z rejects its null, as a mutant's must; fewer draws cannot tell."""
-    return SHARE < 1.0 or all(abs(z) > CAUGHT for z in zs)
+    return DRAWS_FACTOR < 1.0 or all(abs(z) > CAUGHT for z in zs)
 
 
 def of_p(p):

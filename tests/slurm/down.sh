@@ -7,7 +7,15 @@ for _ in $(seq 50); do
     [ -z "$(timeout 5 squeue --noheader)" ] && break
     sleep 0.2
 done
-tac "$folder/pidfiles" | while read -r file; do
-    [ -s "$file" ] && kill "$(cat "$file")"
+pids=()
+while read -r file; do
+    [ -s "$file" ] && pids+=("$(cat "$file")")
+done < <(tac "$folder/pidfiles")
+kill "${pids[@]}" 2> /dev/null
+# A controller saves its state before it ends: the folder is the caller's only then.
+for _ in $(seq 100); do
+    kill -0 "${pids[@]}" 2> /dev/null || break
+    sleep 0.2
 done
+kill -KILL "${pids[@]}" 2> /dev/null
 rm -f /etc/slurm/slurm.conf "$folder/started"

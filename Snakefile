@@ -7,6 +7,7 @@
 #   results/report/runtime.html             how long the jobs took
 #
 # Each item is a target by name: `snakemake -c2 kac_fig3`.
+import re
 import shlex
 import sys
 import time
@@ -14,8 +15,10 @@ from pathlib import Path
 
 sys.path.insert(0, workflow.basedir)
 
-from kacsim import browser, cases, console, items, labels, plan, samplers
-from kacsim.provenance import ROOT, source_hash
+from kacsim import items, plan
+from kacsim.jobs import console, labels, stages
+from kacsim.kernels.provenance import ROOT
+from kacsim.report import browser
 
 
 configfile: ROOT / "config" / "config.yaml"
@@ -51,7 +54,7 @@ except plan.PlanError as error:
 
 wildcard_constraints:
     item="|".join(items.NAMES),
-    kernels="|".join(module.removesuffix(".py") for module in samplers.KERNEL_MODULES),
+    unit="|".join(map(re.escape, the_plan.units)),
 
 
 rule all:

@@ -1,14 +1,10 @@
 """Reproducible Monte Carlo experiments on Kac's model and the Boltzmann equation."""
 
-import importlib
+import lazy_loader
 
 __version__ = "0.1.0"
 
-_PUBLIC = ("boltzmann", "kac")
-
-
-def __getattr__(name):
-    """Load the numba-backed subpackages on first use, so that planning stays light."""
-    if name in _PUBLIC:
-        return importlib.import_module(f"kacsim.{name}")
-    raise AttributeError(f"module 'kacsim' has no attribute '{name}'")
+# Loaded at first use, so that planning stays light.
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__, submodules=["boltzmann", "kac", "techniques"]
+)

@@ -1,35 +1,18 @@
-"""What each sampler accepts: one light table of parameters and one sentence per violation.
+"""Problems, and the checks that every kind of value shares: one sentence per violation.
 
 Nothing heavy is imported here: the plan, the command line and the Python interface all check
 with these functions, so that a wrong value is refused before any work starts.
 """
 
-import math
+import itertools
 import numbers
 from dataclasses import dataclass
 
-RATE = math.sqrt(math.pi) / 2
-MEAN_ENERGY = 1.5  # E[v**2] under f0, per particle
-STEPPED = ("nanbu_sequential", "nanbu_synchronous", "nanbu_babovsky")
-CONTINUOUS = ("bird", "poisson", "poisson_printed")
-ALGORITHMS = STEPPED + CONTINUOUS
-NAMES = {
-    "nanbu_sequential": "Nanbu (sequential)",
-    "nanbu_synchronous": "Nanbu (synchronous)",
-    "nanbu_babovsky": "Nanbu–Babovsky",
-    "bird": "Bird",
-    "poisson": "Poisson (exact)",
-    "poisson_printed": "Poisson (printed rate)",
-    "endless": "Poisson, N = ∞",
-}
-ENGINES = ("ancestral", "forward")
-RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
+OUTSIDE = "a check refuses a value or lets it through unchanged"
 
+MISSING = object()  # the value of a key that should not be there
 LARGEST_COUNT = 2**63 - 1  # of draws, points and the like; seeds may be larger
 LARGEST = 1e50  # of any parameter: its products stay within double precision
-LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
-MAX_NODES = 10_000_000  # budget of one tree of the Boltzmann paper
-BREATHING = 9.0 / 41.0  # eps of section V
 
 
 class BudgetError(RuntimeError):
@@ -45,16 +28,17 @@ class Problem:
     allowed: str
 
     def __str__(self):
+        """Return the problem as one line."""
         return f"{self.name} = {self.value!r}: {self.allowed}"
 
 
-def raise_problems(problems):
-    """Raise ValueError with the first problem, if there is one."""
-    for problem in problems:
+def raise_problems(*groups):
+    """Raise ValueError with the first problem of several groups, if there is one."""
+    for problem in itertools.chain.from_iterable(groups):
         raise ValueError(str(problem))
 
 
-def _is_number(value):
+def is_number(value):
     """Tell a real number that arithmetic in double precision can stand; nan and inf are none."""
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         return False
@@ -64,25 +48,26 @@ def _is_number(value):
         return False
 
 
-def _is_integer(value):
+def is_integer(value):
+    """Tell an integer; a bool is none."""
     return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 def positive(name, value):
     """Yield a problem unless the value is a positive finite number."""
-    if not _is_number(value) or value < 1.0 / LARGEST:
+    if not is_number(value) or value < 1.0 / LARGEST:
         yield Problem(name, value, "must be a positive finite number")
 
 
 def finite(name, value):
     """Yield a problem unless the value is a finite number."""
-    if not _is_number(value):
+    if not is_number(value):
         yield Problem(name, value, "must be a finite number")
 
 
 def at_least(name, value, least):
     """Yield a problem unless the value is a finite number of at least `least`."""
-    if not _is_number(value) or value < least:
+    if not is_number(value) or value < least:
         yield Problem(name, value, f"must be a finite number of at least {least:g}")
 
 
@@ -93,10 +78,16 @@ def not_negative(name, value):
 
 def count(name, value, least=1):
     """Yield a problem unless the value is an integer of at least `least`."""
-    if not _is_integer(value) or value < least:
+    if not is_integer(value) or value < least:
         yield Problem(name, value, f"must be an integer of at least {least}")
     elif value > LARGEST_COUNT and name != "seed":
         yield Problem(name, value, f"must be at most {LARGEST_COUNT}")
+
+
+def bounded(name, value, least, most):
+    """Yield a problem unless the value is an integer between two bounds."""
+    if not is_integer(value) or not least <= value <= most:
+        yield Problem(name, value, f"must be an integer from {least} to {most}")
 
 
 def one_of(name, value, allowed):
@@ -105,122 +96,25 @@ def one_of(name, value, allowed):
         yield Problem(name, value, f"must be one of {', '.join(allowed)}")
 
 
-def n_steps(time, time_step):
-    """Return time / time_step as an integer, None if the step does not divide the time."""
-    ratio = time / time_step
-    steps = round(ratio) if ratio < 2**53 else 0
-    return steps if steps >= 1 and math.isclose(ratio, steps, rel_tol=1e-9) else None
-
-
-def kac(
-    *,
-    algorithm,
-    engine,
-    n_particles,
-    time,
-    time_step=None,
-    collision_rate=RATE,
-    keep_above=None,
-):
-    """Yield the problems of a draw of v_1 at time t (Kac paper, section 4)."""
-    before = [
-        *([] if keep_above is None else finite("keep_above", keep_above)),
-        *one_of("algorithm", algorithm, ALGORITHMS),
-        *one_of("engine", engine, ENGINES),
-        *positive("time", time),
-        *positive("collision_rate", collision_rate),
-    ]
-    yield from before
-    if before:
+def each(name, values, check):
+    """Yield the problems of a list that must not be empty, value by value."""
+    if not isinstance(values, (list, tuple)) or not values:
+        yield Problem(name, values, "must be a list of numbers")
         return
-    if n_particles == math.inf:
-        if algorithm != "poisson" or engine != "ancestral":
-            yield Problem("n_particles", n_particles, "infinity needs ancestral poisson")
-            return
-    else:
-        wrong = list(particles(n_particles, algorithm, engine))
-        yield from wrong
-        if wrong:
-            return
-    followed = min(n_particles, math.exp(min(700.0, collision_rate * time)))
-    if engine == "ancestral" and followed > LARGEST_ANCESTRY:
-        yield Problem(
-            "time",
-            time,
-            f"must be earlier: about {followed:.0e} ancestors, more than {LARGEST_ANCESTRY:.0e}",
-        )
-        return
-    if algorithm in STEPPED:
-        yield from _stepped(algorithm, n_particles, time, time_step, collision_rate)
-    elif time_step is not None:
-        yield Problem("time_step", time_step, f"{algorithm} has no time step")
+    for value in values:
+        yield from check(name, value)
 
 
-def particles(n_particles, algorithm, engine):
-    """Yield the problems of a finite number of particles."""
-    yield from count("n_particles", n_particles, least=2)
-    labelled = algorithm in STEPPED or engine == "forward"
-    most = 10**8 if labelled else 10**15
-    if _is_integer(n_particles) and n_particles > most:
-        yield Problem(
-            "n_particles", n_particles, f"must be at most {most} for {engine} {algorithm}"
-        )
+def three(name, values):
+    """Yield a problem unless there are three values."""
+    if len(values) != 3:
+        yield Problem(name, values, "must be three numbers, along x, y and z")
 
 
-def moment(algorithm, time, n_particles, time_step, collision_rate):
-    """Yield the problems of an exact fourth moment."""
-    yield from one_of("algorithm", algorithm, ALGORITHMS)
-    yield from positive("collision_rate", collision_rate)
-    if time == math.inf:
-        if algorithm != "poisson":
-            yield Problem("time", time, "infinity needs poisson")
-    else:
-        yield from not_negative("time", time)
-    if n_particles != math.inf:
-        wrong = list(count("n_particles", n_particles, least=2))
-        yield from wrong
-        if not wrong and algorithm in STEPPED and _is_number(time) and time > 0:
-            yield from _stepped(algorithm, n_particles, time, time_step, collision_rate)
-
-
-def _stepped(algorithm, n_particles, time, time_step, rate):
-    wrong = list(positive("time_step", time_step))
-    yield from wrong
-    if wrong:
-        return
-    if n_steps(time, time_step) is None:
-        yield Problem("time_step", time_step, f"must divide time = {time!r} evenly")
-    product = f"({rate:.4g} * {time_step!r} = {rate * time_step:.4g})"
-    if rate * time_step > 1:
-        family = "Nanbu-Babovsky" if algorithm == "nanbu_babovsky" else "Nanbu"
-        yield Problem(
-            "time_step", time_step, f"{family} needs collision_rate * time_step <= 1 {product}"
-        )
-    elif algorithm == "nanbu_babovsky":
-        pairs = math.ceil(rate * n_particles * time_step / 2)
-        if 2 * pairs > n_particles:
-            sentence = f"{pairs} disjoint pairs may be needed of {n_particles} particles"
-            yield Problem("time_step", time_step, f"{sentence}; at most n_particles / 2 exist")
-
-
-def kac_equilibrium(*, n_particles, tolerance, energy=None, **_):
-    """Yield the problems of an epsilon-perfect draw (Kac paper, section 5)."""
-    wrong = [*count("n_particles", n_particles, least=2), *positive("tolerance", tolerance)]
-    if energy is not None:
-        wrong += positive("energy", energy)
-    yield from wrong
-    if wrong:
-        return
-    radius = math.sqrt(MEAN_ENERGY * n_particles if energy is None else energy)
-    least = RELATIVE_TOLERANCE * radius
-    if tolerance < least:
-        sentence = f"double precision resolves distances of at least {least:.1e} on this sphere"
-        yield Problem("tolerance", tolerance, sentence)
-
-
-def kac_corners(*, n_particles, tolerance, **_):
-    """Yield the problems of a recorded run of the corner points."""
-    yield from kac_equilibrium(n_particles=n_particles, tolerance=tolerance)
+def rising(name, values):
+    """Yield a problem unless the values grow."""
+    if any(b <= a for a, b in itertools.pairwise(values)):
+        yield Problem(name, values, "must grow from each value to the next")
 
 
 def amount(*, n_draws, n_replicates, seed, **_):

@@ -11,10 +11,11 @@ from pathlib import Path
 
 import yaml
 
-from kacsim import items
-from kacsim.batches import make_batches
-from kacsim.provenance import ROOT
-from kacsim.shards import make_shards
+from kacsim import files, items
+from kacsim.checks import MISSING
+from kacsim.jobs.batches import make_batches
+from kacsim.jobs.shards import make_shards
+from kacsim.kernels.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml")
@@ -34,29 +35,6 @@ def _in_one_line(text):
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
-def _shared_items():
-    """Return the helper modules of the items; an edit makes all datasets and figures again."""
-    folder = Path(items.__file__).parent
-    return tuple(f"items/{path.name}" for path in sorted(folder.glob("_[a-z]*.py")))
-
-
-def reduce_sources(name):
-    """Return the package's files that an item's dataset depends on."""
-    used = (name, *getattr(items.load(name), "USES", ()))
-    exact = ("kac/exact.py", "kac/moments.py", "kac/ancestors.py")
-    exact += ("boltzmann/bkw.py", "boltzmann/extinction.py", "boltzmann/trap.py")
-    exact += ("techniques/exact.py", "techniques/flux.py", "techniques/inverse_transform.py")
-    own = tuple(f"items/{one}.py" for one in used)
-    return (*own, *_shared_items(), *exact, "statistics", "store.py")
-
-
-def draw_sources(name):
-    """Return the package's files that an item's figure depends on."""
-    exact = "kac/exact.py", "boltzmann/bkw.py", "techniques/exact.py", "techniques/flux.py"
-    own = f"items/{name}.py", *_shared_items(), "plotting.py", "csv_table.py"
-    return (*own, *exact)
-
-
 def read_config(*paths):
     """Return the merged configuration of YAML files, later ones over earlier ones.
 
@@ -73,7 +51,7 @@ def read_config(*paths):
 
 def _read_yaml(path):
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        content = files.read_yaml(path)
     except OSError as error:
         raise PlanError(f"{path}: cannot be read: {error.strerror}") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:
@@ -126,6 +104,7 @@ class Plan:
             problems += self._edge_problems(name)
         self._refuse(problems)
         self.cases = {case.id: case for cases in self.cases_of.values() for case in cases}
+        self.units = {case.unit: case for case in self.cases.values()}
         self.shards = make_shards(self.cases.values(), self.config["shard_seconds"])
         whole = {
             name: [case for case in cases if case.id not in self.shards]
@@ -136,7 +115,7 @@ class Plan:
     def _settings_of(self, name):
         common = {key: self.config[key] for key in COMMON}
         settings = common | self.config[name]
-        uses = getattr(items.load(name), "USES", ())
+        uses = items.uses(name)
         if uses:
             settings["items"] = {used: self._settings_of(used) for used in uses}
         return settings
@@ -255,9 +234,6 @@ def recipe_options(files, values):
     if values:
         words += ["--config", *(f"{key}={value}" for key, value in sorted(values.items()))]
     return shlex.join(words)
-
-
-MISSING = object()
 
 
 def describe(path):

@@ -7,8 +7,10 @@ import numpy as np
 from matplotlib import ticker
 from matplotlib.figure import Figure
 
-from kacsim.items._lazy import exact
-from kacsim.store import replace_file
+from kacsim.files import replace_file
+from kacsim.kernels.lookup import lazy
+
+exact = lazy("kacsim.kac.exact")
 
 # Okabe and Ito's colours, told apart by all common kinds of colour vision; markers differ too.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")

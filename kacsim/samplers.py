@@ -1,168 +1,228 @@
-"""The tables of samplers: their parameters, short forms, defaults, lists and sources."""
+"""What a sampler is, told once: the command line, checks, ids, jobs and tests read it here.
 
-from kacsim.checks import BREATHING, MAX_NODES, RATE
+Every family of samplers (a folder with a module ``samplers``) declares its own; they are found by
+that name. Nothing heavy is imported: Snakemake reads the declarations at every start.
+"""
 
-_TREE = {"oversampling": "m", "onset": "from", "max_nodes": "budget"}
-_GAS = {
-    "density": "n",
-    "temperature": "temp",
-    "drift": "drift",
-    "half_width": "box",
-    "step": "dt",
-}
-_TRAP = {
-    "initial": "",
-    "breathing": "eps",
-    "start_phase": "phi",
-    "coupling": "coupling",
-    "majorant_factor": "majorant",
-    "spread": "spread",
-    "anisotropy": "anisotropy",
-    "max_nodes": "budget",
-}
-# sampler -> its parameters with their short forms in a case id, in the order of both
-SAMPLERS = {
-    "kac": {
-        "algorithm": "",
-        "engine": "",
-        "n_particles": "n",
-        "time": "t",
-        "time_step": "dt",
-        "collision_rate": "rate",
-        "keep_above": "above",
-    },
-    "kac_equilibrium": {"n_particles": "n", "tolerance": "eps", "energy": "e"},
-    "kac_corners": {"n_particles": "n", "tolerance": "eps"},
-    "kac_probe": {"speed": "v", "time": "t", "collision_rate": "rate", **_TREE},
-    "bkw": {"speed": "c", "time": "t", **_TREE},
-    "bkw_fraction": {"threshold": "c", "time": "t", **_TREE},
-    "bkw_tree": {"speed": "c", "time": "t"},
-    "bkw_literal": {"initial": "", "speed": "c", "time": "t"},
-    "extinction": {"majorant": "nu", "time": "t", "max_nodes": "budget"},
-    "trap": {"radius": "r", "time": "t", **_TRAP},
-    "trap_fraction": {"radius": "r", "time": "t", **_TRAP},
-    "trap_energy": {"radius": "r", "time": "t", **_TRAP},
-    "trap_literal": {
-        "initial": "",
-        "radius": "r",
-        "time": "t",
-        "breathing": "eps",
-        "coupling": "coupling",
-    },
-    "bkw_moment": {"time": "t", **_TREE},
-    "inverse_transform": {"law": "", "n_table": "table"},
-    "inversion": {"law": "", "rate": "rate"},
-    "rejection": {"law": "", "envelope": ""},
-    "identity": {},
-    "injection": _GAS,
-    "outer_gas": _GAS,
-    "weighted_particles": {"n_representatives": "n", "temperature": "temp", "drift": "drift"},
-    "sphere_lattice": {"dimension": "d", "edge": "m"},
-    "sphere_points": {"generator": "", "dimension": "d", "n_points": "n"},
-    "area": {"exponent": "power", "n_points": "n"},
-}
-# Parameters that are lists: a case of the Boltzmann paper holds a grid of probes.
-LISTS = {
-    name: {"speed", "time", "threshold", "majorant", "radius"} & set(SAMPLERS[name])
-    | ({"oversampling"} if name == "bkw_moment" else set())
-    for name in (
-        "kac_probe",
-        "bkw",
-        "bkw_fraction",
-        "bkw_literal",
-        "extinction",
-        "trap",
-        "trap_fraction",
-        "trap_energy",
-        "trap_literal",
-        "bkw_moment",
-    )
-}
-PROBES = tuple(LISTS)  # samplers at grids of probes
-LISTS |= {
-    name: {"n_table", "drift", "half_width", "dimension", "edge", "n_points"} & set(SAMPLERS[name])
-    for name in (
-        "inverse_transform",
-        "injection",
-        "outer_gas",
-        "weighted_particles",
-        "sphere_lattice",
-        "sphere_points",
-        "area",
-    )
-}
-DEFAULTS = {
-    "time_step": None,
-    "collision_rate": RATE,
-    "keep_above": None,
-    "energy": None,
-    "oversampling": 1.0,
-    "onset": 0.0,
-    "max_nodes": MAX_NODES,
-    "initial": "bkw",
-    "breathing": BREATHING,
-    "start_phase": 0.0,
-    "coupling": 3.0,
-    "majorant_factor": 1.0,
-    "spread": 1.0,
-    "anisotropy": 0.0,
-}
+import dataclasses
+import difflib
+import functools
+import importlib
+import math
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 
-# The sources that a draw's bits depend on; `Case.sources` adds the files of the sampler.
-SAMPLE_SOURCES = ("jit.py", "streams.py", "variates.py", "sampling.py", "store.py")
-FAMILY_SOURCES = {
-    "kac": ("kac/sampling.py", "kac/draws.py", "kac/model.py"),
-    "boltzmann": (
-        "boltzmann/sampling.py",
-        "boltzmann/estimators.py",
-        "boltzmann/model.py",
-        "boltzmann/trap.py",
-        "boltzmann/literal.py",
-    ),
-    "techniques": (
-        "techniques/sampling.py",
-        "techniques/model.py",
-        "techniques/exact.py",
-        "techniques/flux.py",
-        "checks_techniques.py",
-        "kac/model.py",
-    ),
-}
-ALGORITHM_FILES = {
-    "nanbu_sequential": "kac/nanbu.py",
-    "nanbu_synchronous": "kac/nanbu.py",
-    "nanbu_babovsky": "kac/nanbu_babovsky.py",
-    "bird": "kac/bird.py",
-    "poisson": "kac/poisson.py",
-    "poisson_printed": "kac/poisson.py",
-}
-SAMPLER_FILES = {
-    "kac_equilibrium": "kac/perfect.py",
-    "kac_corners": "kac/perfect.py",
-    "kac_probe": "boltzmann/kac_tree.py",
-    "bkw": "boltzmann/bkw_tree.py",
-    "bkw_fraction": "boltzmann/bkw_tree.py",
-    "bkw_tree": "boltzmann/literal.py",
-    "bkw_literal": "boltzmann/literal.py",
-    "extinction": "boltzmann/null_collisions.py",
-    "trap": "boltzmann/trap_tree.py",
-    "trap_fraction": "boltzmann/trap_tree.py",
-    "trap_energy": "boltzmann/trap_tree.py",
-    "trap_literal": "boltzmann/literal_trap.py",
-    "bkw_moment": "boltzmann/bkw_tree.py",
-    "inverse_transform": "techniques/inverse_transform.py",
-    "inversion": "techniques/inverse_transform.py",
-    "rejection": "techniques/rejection.py",
-    "identity": "techniques/identity.py",
-    "injection": "techniques/injection.py",
-    "outer_gas": "techniques/injection.py",
-    "weighted_particles": "techniques/particles.py",
-    "sphere_lattice": "techniques/integration.py",
-    "sphere_points": "techniques/integration.py",
-    "area": "techniques/integration.py",
-}
-# Measured: a collision, or a node of a tree, with all that belongs to it.
-WORK_SECONDS = 3e-8
-# Samplers that record runs or count, without replicates: theirs is drawn in one go.
-UNSHARDED = ("kac_corners", "bkw_tree", "sphere_lattice")
-KERNEL_MODULES = tuple(dict.fromkeys([*ALGORITHM_FILES.values(), *SAMPLER_FILES.values()]))
+from kacsim.checks import Problem, each
+
+OUTSIDE = "a case carries every value that its declaration sets"
+REQUIRED = object()  # default of a parameter that has none
+REPLICATE_MEGABYTES = 0.008
+
+
+def real(text):
+    """Return a word of the command line as a float; what is none stays, for a check to refuse."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def whole(text):
+    """Return a word of the command line as an integer; what is none stays."""
+    try:
+        return int(text)
+    except ValueError:
+        return text
+
+
+def whole_or_infinite(text):
+    """Return an integer, or infinity for ``inf``; what is neither stays."""
+    return math.inf if text == "inf" else whole(text)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter of a sampler.
+
+    Attributes
+    ----------
+    name, short : str, its name, and what stands before its value in a case's id
+    meaning : str, one line of help
+    check : callable(name, value) that yields problems; of each value if there are many
+    default : REQUIRED, or the value that need not be given
+    kind : callable that reads a word of the command line; what it cannot read it returns as it is,
+        for the check to refuse by name
+    many : bool, a list of values
+    whole : callable(name, values) that yields problems of a list as such
+    shown : bool, part of the id even where it has its default
+    """
+
+    name: str
+    short: str
+    meaning: str
+    check: Callable
+    default: object = REQUIRED
+    kind: Callable = str
+    many: bool = False
+    whole: Callable | None = None
+    shown: bool = False
+
+    def problems(self, value):
+        """Return the list of what is wrong with a value."""
+        if self.many:
+            found = list(each(self.name, value, self.check))
+            return found or list(self.whole(self.name, value) if self.whole else ())
+        return list(self.check(self.name, value))
+
+    def is_shown(self, value):
+        """Tell whether a value stands in the id and in the recipe."""
+        return self.shown or self.default is REQUIRED or value != self.default
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One of several algorithms of a sampler: its kernels are the module of its name.
+
+    Attributes
+    ----------
+    name, title : str, as in a configuration, and as in a figure
+    parameters : tuple of Parameter that not every variant has
+    check : callable(**parameters) that yields the problems of these together
+    tiny : dict, values of its own parameters that make the smallest case
+    """
+
+    name: str
+    title: str
+    parameters: tuple = ()
+    check: Callable | None = None
+    tiny: dict = dataclasses.field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """One kind of sample.
+
+    Attributes
+    ----------
+    name : str
+    draws : str, what it draws, for help
+    parameters : tuple of Parameter, in the order of ids
+    tiny : tuple of dict, the smallest parameters, several where kernels differ
+    kernels : str, module of the family that holds the kernels; "" if each variant has its own
+    entries : callable(parameters) -> names of that module that the sampler looks up
+    check : callable(**parameters) that yields the problems of values that are each right
+    cost : callable(parameters) -> work of one draw, in collisions or nodes of a tree
+    replicate_megabytes : callable(parameters) -> memory of one replicate's counts
+    by_replicate : bool, replicates are independent of each other: they can be drawn in shards
+    variants : tuple of Variant, the values of the first parameter
+    variant_place : int, place among the parameters where those of a variant stand
+    engines : tuple of str, the values of the parameter ``engine`` of a sampler with variants
+    streaming : str, function of the family's ``sampling`` that streams a case; ``sample_{name}``
+        if not given
+    family : str, the folder that declares it; set by `registry`
+    """
+
+    name: str
+    draws: str
+    parameters: tuple
+    tiny: tuple
+    kernels: str = ""
+    entries: Callable = lambda parameters: ()
+    check: Callable | None = None
+    cost: Callable = lambda parameters: 6.0
+    replicate_megabytes: Callable = lambda parameters: REPLICATE_MEGABYTES
+    by_replicate: bool = True
+    streaming: str = ""
+    variants: tuple = ()
+    variant_place: int = 0
+    engines: tuple = ()
+    family: str = ""
+
+    def parameters_of(self, given):
+        """Return the parameters of a case, its variant's among them (of all, if it is unknown)."""
+        name = given.get(self.parameters[0].name) if self.variants else None
+        mine = [variant for variant in self.variants if variant.name == name]
+        more = [parameter for variant in mine or self.variants for parameter in variant.parameters]
+        unique = {parameter.name: parameter for parameter in more}
+        place = self.variant_place
+        return (*self.parameters[:place], *unique.values(), *self.parameters[place:])
+
+    def complete(self, given):
+        """Return the parameters of a case: those given, and defaults for the others.
+
+        Raises
+        ------
+        ValueError
+            Names a parameter that the sampler, or its variant, does not have.
+        """
+        known = {parameter.name: parameter for parameter in self.parameters_of(given)}
+        for name, value in given.items():
+            if name not in known and value is not None:
+                near = difflib.get_close_matches(name, known, n=1)
+                hint = f"did you mean {near[0]}?" if near else f"it has {', '.join(known)}"
+                owner = given[self.parameters[0].name] if self.variants else self.name
+                problem = Problem(name, value, f"{owner} has no such parameter; {hint}")
+                raise ValueError(str(problem))
+        complete = {}
+        for name, parameter in known.items():
+            default = None if parameter.default is REQUIRED else parameter.default
+            value = given.get(name)
+            complete[name] = default if value is None else value
+        return complete
+
+    def problems(self, parameters):
+        """Return what is wrong with a case's parameters, each and then together."""
+        found = [
+            problem
+            for parameter in self.parameters_of(parameters)
+            if parameter.default is not None or parameters[parameter.name] is not None
+            for problem in parameter.problems(parameters[parameter.name])
+        ]
+        if not found and self.check:
+            found += self.check(**parameters)
+        for variant in self.variants:
+            if not found and variant.check and variant.name == parameters[self.parameters[0].name]:
+                found += variant.check(**parameters)
+        return found
+
+    def kernel_module(self, parameters):
+        """Return the module that holds the kernels, such as ``kacsim.kac.bird``."""
+        return f"kacsim.{self.family}.{self.kernels or parameters[self.parameters[0].name]}"
+
+    def roots(self, parameters):
+        """Return (module, name) of what draws: the function that streams, and what it looks up."""
+        streaming = self.streaming or f"sample_{self.name}"
+        module = self.kernel_module(parameters)
+        looked_up = ((module, entry) for entry in self.entries(parameters))
+        return ((f"kacsim.{self.family}.sampling", streaming), *looked_up)
+
+
+@functools.cache
+def families():
+    """Return the names of the families: the folders that declare samplers."""
+    folder = Path(__file__).parent
+    return [
+        found.name
+        for found in pkgutil.iter_modules([str(folder)])
+        if found.ispkg and (folder / found.name / "samplers.py").exists()
+    ]
+
+
+@functools.cache
+def registry():
+    """Return name -> Sampler of all families."""
+    found = {}
+    for family in families():
+        home = importlib.import_module(f"kacsim.{family}.samplers")
+        for sampler in home.SAMPLERS:
+            found[sampler.name] = dataclasses.replace(sampler, family=family)
+    return found
+
+
+def declared(sampler, parameters):
+    """Yield the problems of parameters that a sampler declares: for functions that have some."""
+    known = {one.name: one for one in registry()[sampler].parameters}
+    for name, value in parameters.items():
+        yield from known[name].problems(value)

@@ -3,13 +3,11 @@
 import copy
 import difflib
 import math
-from pathlib import Path
 
 import jsonschema
-import yaml
 
-from kacsim.checks import LARGEST_COUNT
-from kacsim.plan import MISSING
+from kacsim.checks import LARGEST_COUNT, MISSING
+from kacsim.files import read_yaml
 
 
 def complete(config, schema_file):
@@ -24,7 +22,7 @@ def complete(config, schema_file):
     -------
     (dict, list of (path, value, sentence))
     """
-    schema = yaml.safe_load(Path(schema_file).read_text(encoding="utf-8"))
+    schema = read_yaml(schema_file)
     config = copy.deepcopy(config)
     _fill(config, schema)
     strict = jsonschema.validators.extend(

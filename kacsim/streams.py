@@ -10,7 +10,7 @@ import hashlib
 import numpy as np
 from numba import uint64
 
-from kacsim.jit import inlined
+from kacsim.kernels.jit import inlined
 
 
 def new_stream(seed, name="", replicate=0):

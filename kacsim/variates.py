@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numba import int64, uint64
 
-from kacsim.jit import inlined
+from kacsim.kernels.jit import inlined
 from kacsim.streams import next_bits
 
 LAYERS = 256

@@ -1,23 +1,13 @@
 """The Boltzmann equation probed by branching trees: estimators and exact results."""
 
-import importlib
+import lazy_loader
 
 # Loaded at first use: formulas need no compiler.
-_HOME = {
-    "BudgetError": "estimators",
-    "Estimate": "estimators",
-    "estimate_bkw": "estimators",
-    "estimate_bkw_fraction": "estimators",
-    "estimate_extinction": "estimators",
-    "estimate_trap": "trap_estimators",
-    "estimate_trap_fraction": "trap_estimators",
-}
-
-__all__ = [*_HOME]
-
-
-def __getattr__(name):
-    """Return a public function from the module that defines it."""
-    if name in _HOME:
-        return getattr(importlib.import_module(f"kacsim.boltzmann.{_HOME[name]}"), name)
-    raise AttributeError(f"module 'kacsim.boltzmann' has no attribute '{name}'")
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "bkw_estimators": ["estimate_bkw", "estimate_bkw_fraction", "estimate_extinction"],
+        "estimators": ["BudgetError", "Estimate"],
+        "trap_estimators": ["estimate_trap", "estimate_trap_fraction"],
+    },
+)

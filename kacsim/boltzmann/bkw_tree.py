@@ -3,7 +3,7 @@
 import numpy as np
 
 from kacsim.boltzmann.model import BKW, DEPTH, shell, speed_beyond, tree
-from kacsim.jit import kernel
+from kacsim.kernels.jit import kernel
 from kacsim.variates import exponential, half_normal
 
 
@@ -69,3 +69,25 @@ def estimate_moment(values, nodes, oversampling, time, onset, max_nodes, stream)
         if nodes[k] < 0:
             return False
     return True
+
+
+def _at(kernel, probe, time, oversampling, onset, max_nodes):
+    """Return a kernel at one probe: callable(values, nodes, stream)."""
+    fixed = float(probe), float(time), float(oversampling), float(onset), max_nodes
+    return lambda values, nodes, stream: kernel(values, nodes, *fixed, stream)
+
+
+def bkw(speed, time, *, oversampling, onset, max_nodes):
+    """Return Algorithm 2 at one probe, in units of M(c): callable(values, nodes, stream)."""
+    return _at(estimate, speed, time, oversampling, onset, max_nodes)
+
+
+def bkw_fraction(threshold, time, *, oversampling, onset, max_nodes):
+    """Return Algorithm 3 at one threshold: callable(values, nodes, stream)."""
+    return _at(estimate_fraction, threshold, time, oversampling, onset, max_nodes)
+
+
+def bkw_moment(oversampling, time, *, onset, max_nodes):
+    """Return Algorithm 2 at velocities drawn from M: callable(values, nodes, stream)."""
+    fixed = float(oversampling), float(time), float(onset), max_nodes
+    return lambda values, nodes, stream: estimate_moment(values, nodes, *fixed, stream)

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from kacsim.jit import inlined, kernel
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import exponential, half_normal, random_sign, uniform
 
 
@@ -126,3 +126,9 @@ def record(speed, time, max_nodes, stream):
                 waiting[n_waiting, 3] = bz if k == 0 else az
                 n_waiting += 1
     return rows[:n]
+
+
+def bkw_literal(speed, time, *, initial):
+    """Return the printed algorithm at one probe: callable(values, nodes, stream)."""
+    fixed = float(speed), float(time), initial == "equilibrium"
+    return lambda values, nodes, stream: estimate(values, nodes, *fixed, stream)

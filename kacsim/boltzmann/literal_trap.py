@@ -8,9 +8,10 @@ import math
 
 import numpy as np
 
+from kacsim.boltzmann import trap
 from kacsim.boltzmann.literal import isotropic, normal
 from kacsim.boltzmann.trap import MAJORANT
-from kacsim.jit import inlined, kernel
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import exponential, uniform
 
 
@@ -128,3 +129,11 @@ def estimate(values, nodes, radius, radial, time, coupling, breathing, relaxed, 
         values[k] = probe(point, time, coupling, breathing, relaxed, count, stream) / now
         nodes[k] = count[0]
     return True
+
+
+def trap_literal(radius, time, *, initial, breathing, coupling):
+    """Return the printed algorithm where the flow has the probe's velocity at time 0."""
+    speed = float(trap.flow(radius, 0.0, breathing))
+    fixed = float(radius), speed, float(time), float(coupling), float(breathing)
+    relaxed = initial == "breathing"
+    return lambda values, nodes, stream: estimate(values, nodes, *fixed, relaxed, stream)

@@ -14,7 +14,7 @@ import math
 
 from numba import int64
 
-from kacsim.jit import inlined
+from kacsim.kernels.jit import inlined
 from kacsim.variates import exponential, half_normal, squared_cosine, uniform
 
 BKW, KAC = 0, 1

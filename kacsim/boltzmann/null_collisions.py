@@ -4,7 +4,7 @@ import numpy as np
 from numba import int64
 
 from kacsim.boltzmann.model import DEPTH
-from kacsim.jit import kernel
+from kacsim.kernels.jit import kernel
 from kacsim.variates import exponential
 
 
@@ -51,3 +51,9 @@ def estimate(values, nodes, time, ratio, max_nodes, stream):
             here = times[level - 1]
         values[k] = value
     return True
+
+
+def extinction(majorant, time, *, max_nodes):
+    """Return Algorithm 4 in units of f0 and 1 / (alpha f0): callable(values, nodes, stream)."""
+    fixed = float(time), float(majorant), max_nodes
+    return lambda values, nodes, stream: estimate(values, nodes, *fixed, stream)

@@ -1,109 +1,28 @@
 """Samplers of the Boltzmann paper: realizations at a grid of probes, streamed into sums."""
 
-import math
-
 import numpy as np
 
-from kacsim.boltzmann import (
-    bkw_tree,
-    kac_tree,
-    literal,
-    literal_trap,
-    null_collisions,
-    trap,
-    trap_tree,
-)
+from kacsim.boltzmann import literal
 from kacsim.boltzmann.estimators import chunks
+from kacsim.kernels.lookup import named
 from kacsim.store import described
 from kacsim.streams import new_stream
 
-THERMAL = math.sqrt(1.5)  # RMS velocity of eq. (9) of the Kac paper
+KEPT = 100_000  # realizations are not kept: for cases that hold other first values
 TOP = 500  # largest values kept at each probe, for the index of the tail
 
 
-def _bkw(p, speed, time):
-    probe = float(speed), float(time), float(p["oversampling"]), float(p["onset"])
-    return lambda v, n, s: bkw_tree.estimate(v, n, *probe, p["max_nodes"], s)
+def binding(case):
+    """Return (name of the first probe axis, callable(first, time) that binds the kernel there).
 
-
-def _bkw_fraction(p, threshold, time):
-    probe = float(threshold), float(time), float(p["oversampling"]), float(p["onset"])
-    return lambda v, n, s: bkw_tree.estimate_fraction(v, n, *probe, p["max_nodes"], s)
-
-
-def _bkw_literal(p, speed, time):
-    equilibrium = p["initial"] == "equilibrium"
-    return lambda v, n, s: literal.estimate(v, n, float(speed), float(time), equilibrium, s)
-
-
-def _extinction(p, majorant, time):
-    return lambda v, n, s: null_collisions.estimate(
-        v, n, float(time), float(majorant), p["max_nodes"], s
-    )
-
-
-def _trap_laws(p):
-    physics = (float(p["coupling"]), float(p["breathing"]), float(p["start_phase"]))
-    start = 1.0 if p["initial"] == "bkw" else 0.0
-    majorant = trap.MAJORANT * p["majorant_factor"]
-    return (*physics, start), (majorant, float(p["spread"]), float(p["anisotropy"]))
-
-
-def _trap(p, radius, time):
-    """Probe at a radius, with the velocity that the flow has there at time 0."""
-    physics, choices = _trap_laws(p)
-    speed = float(trap.flow(radius, 0.0, physics[1], physics[2]))
-    probe = float(radius), speed, 0.0, float(time)
-    return lambda v, n, s: trap_tree.estimate(v, n, *probe, physics, choices, p["max_nodes"], s)
-
-
-def _trap_literal(p, radius, time):
-    speed = float(trap.flow(radius, 0.0, p["breathing"]))
-    probe = float(radius), speed, float(time), float(p["coupling"]), float(p["breathing"])
-    relaxed = p["initial"] == "breathing"
-    return lambda v, n, s: literal_trap.estimate(v, n, *probe, relaxed, s)
-
-
-def _trap_fraction(p, radius, time):
-    physics, choices = _trap_laws(p)
-    probe = float(radius), float(time)
-    return lambda v, n, s: trap_tree.estimate_fraction(
-        v, n, *probe, physics, choices, p["max_nodes"], s
-    )
-
-
-def _kac_probe(p, speed, time):
-    probe = speed / THERMAL, float(p["collision_rate"] * time)
-    more = float(p["oversampling"]), float(p["collision_rate"] * p["onset"])
-    return lambda v, n, s: kac_tree.estimate(v, n, *probe, *more, p["max_nodes"], s)
-
-
-def _bkw_moment(p, oversampling, time):
-    probe = float(oversampling), float(time), float(p["onset"])
-    return lambda v, n, s: bkw_tree.estimate_moment(v, n, *probe, p["max_nodes"], s)
-
-
-def _trap_energy(p, radius, time):
-    physics, choices = _trap_laws(p)
-    probe = float(radius), float(time)
-    return lambda v, n, s: trap_tree.estimate_energy(
-        v, n, *probe, physics, choices, p["max_nodes"], s
-    )
-
-
-# sampler -> (name of the first probe axis, function that binds a kernel to a probe)
-PROBES = {
-    "bkw": ("speed", _bkw),
-    "bkw_fraction": ("threshold", _bkw_fraction),
-    "bkw_literal": ("speed", _bkw_literal),
-    "extinction": ("majorant", _extinction),
-    "trap_literal": ("radius", _trap_literal),
-    "trap": ("radius", _trap),
-    "trap_fraction": ("radius", _trap_fraction),
-    "trap_energy": ("radius", _trap_energy),
-    "bkw_moment": ("oversampling", _bkw_moment),
-    "kac_probe": ("speed", _kac_probe),
-}
+    The kernels' module has a function of the sampler's name; it takes the probe and the other
+    parameters.
+    """
+    family, module = case.kernel_module.rsplit(".", 1)
+    bind = named(family, module, case.name)
+    axis = next(one.name for one in case.sampler.parameters if one.many and one.name != "time")
+    fixed = {key: value for key, value in case.parameters.items() if key not in (axis, "time")}
+    return axis, lambda first, time: bind(first, time, **fixed)
 
 
 def sample(case, progress):
@@ -115,7 +34,7 @@ def sample(case, progress):
     top[first, time, rank] (the largest values, in descending order)
     """
     p = case.parameters
-    axis, bind = PROBES[case.sampler]
+    axis, bind = binding(case)
     shape = (len(p[axis]), len(p["time"]))
     rows = len(case.replicates)
     sums = np.zeros((4, *shape, rows))
@@ -124,7 +43,7 @@ def sample(case, progress):
     done = 0
     for i, first in enumerate(p[axis]):
         for j, time in enumerate(p["time"]):
-            draw = bind(p, first, time)
+            draw = bind(first, time)
             for row, replicate in enumerate(case.replicates):
                 stream = new_stream(case.seed, f"{case.id} probe {i} {j}", replicate)
                 place = (slice(None), i, j, row)
@@ -189,6 +108,3 @@ def sample_bkw_tree(case, progress):
         ),
         "parent": described(rows[:, 8].astype(np.int64), one, "row of the parent, -1 at the root"),
     }
-
-
-SAMPLERS = dict.fromkeys(PROBES, sample) | {"bkw_tree": sample_bkw_tree}

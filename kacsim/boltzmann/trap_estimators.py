@@ -2,27 +2,21 @@
 
 import numpy as np
 
-from kacsim import checks, checks_boltzmann
+from kacsim import checks
 from kacsim.boltzmann import trap, trap_tree
-from kacsim.boltzmann.estimators import MAX_NODES, check, estimate_from, sizes, vector_of
-from kacsim.checks import BREATHING
+from kacsim.boltzmann.constants import BREATHING, MAX_NODES
+from kacsim.boltzmann.estimators import estimate_from, sizes, vector_of
+from kacsim.samplers import declared
+
+PUBLISHED = {"majorant_factor": 1.0, "spread": 1.0, "anisotropy": 0.0}  # laws of the text
 
 
-def _problems(physics, choices):
-    for name in ("amount", "cross_section", "angular_frequency", "rms_velocity"):
-        yield from checks.positive(name, physics[name])
-    yield from checks_boltzmann.breathing("breathing", physics["breathing"])
-    yield from checks.finite("start_phase", physics["start_phase"])
-    yield from checks.one_of("initial", physics["initial"], checks_boltzmann.STARTS)
-    yield from checks_boltzmann.trap_choices(**choices)
-
-
-def _units(physics):
-    """Return (kernel physics, unit of length) from physical parameters."""
-    length = physics["rms_velocity"] / physics["angular_frequency"]
-    coupling = physics["amount"] * physics["cross_section"] / length**2 / physics["rms_velocity"]
-    start = 1.0 if physics["initial"] == "bkw" else 0.0
-    return (coupling, physics["breathing"], physics["start_phase"], start), length
+def _scaled(gas):
+    """Return (unit of length, coupling of the reduced problem); ValueError names a wrong one."""
+    checks.raise_problems(*(checks.positive(name, value) for name, value in gas.items()))
+    length = gas["rms_velocity"] / gas["angular_frequency"]
+    coupling = gas["amount"] * gas["cross_section"] / length**2 / gas["rms_velocity"]
+    return length, coupling
 
 
 def estimate_trap(
@@ -68,33 +62,31 @@ def estimate_trap(
         As `estimate_bkw`.
     """
     place, speed = vector_of("position", position), vector_of("velocity", velocity)
-    physics = {
+    gas = {
+        "amount": amount,
+        "cross_section": cross_section,
+        "angular_frequency": angular_frequency,
+        "rms_velocity": rms_velocity,
+    }
+    laws = {
         "initial": initial,
         "breathing": breathing,
         "start_phase": start_phase,
-        "angular_frequency": angular_frequency,
-        "rms_velocity": rms_velocity,
-        "amount": amount,
-        "cross_section": cross_section,
+        "majorant_factor": majorant_factor,
+        "spread": spread,
+        "anisotropy": anisotropy,
+        "max_nodes": max_nodes,
     }
-    choices = {"majorant_factor": majorant_factor, "spread": spread, "anisotropy": anisotropy}
-    check(
-        checks.not_negative("time", time),
-        _problems(physics, choices),
-        sizes(n_realizations, seed, max_nodes),
+    checks.raise_problems(
+        checks.not_negative("time", time), declared("trap", laws), sizes(n_realizations, seed)
     )
-    reduced, length = _units(physics)
+    length, coupling = _scaled(gas)
     radius = float(np.linalg.norm(place)) / length
     along = place / np.linalg.norm(place) if radius > 0.0 else np.array([1.0, 0.0, 0.0])
     radial = float(speed @ along) / rms_velocity
     tangential = float(np.linalg.norm(speed - (speed @ along) * along)) / rms_velocity
     phase = float(angular_frequency * time)
-    laws = trap.MAJORANT * majorant_factor, float(spread), float(anisotropy)
-
-    def draw(values, nodes, stream):
-        probe = radius, radial, tangential, phase
-        return trap_tree.estimate(values, nodes, *probe, reduced, laws, max_nodes, stream)
-
+    draw = trap_tree.at(radius, radial, tangential, phase, coupling=coupling, **laws)
     state = trap.breathing_density(radius, radial, tangential, phase, breathing, start_phase)
     factor = amount * float(state) / (length * rms_velocity) ** 3
     return estimate_from(draw, factor, n_realizations, seed, "boltzmann.estimate_trap")
@@ -119,26 +111,25 @@ def estimate_trap_fraction(
 
     Parameters, result and errors as `estimate_trap`, with radius >= 0 in place of the probe.
     """
-    physics = {
+    gas = {
+        "amount": amount,
+        "cross_section": cross_section,
+        "angular_frequency": angular_frequency,
+        "rms_velocity": rms_velocity,
+    }
+    laws = PUBLISHED | {
         "initial": initial,
         "breathing": breathing,
         "start_phase": start_phase,
-        "angular_frequency": angular_frequency,
-        "rms_velocity": rms_velocity,
-        "amount": amount,
-        "cross_section": cross_section,
+        "max_nodes": max_nodes,
     }
-    check(
+    checks.raise_problems(
         checks.not_negative("radius", radius),
         checks.not_negative("time", time),
-        _problems(physics, checks_boltzmann.PUBLISHED_CHOICES),
-        sizes(n_realizations, seed, max_nodes),
+        declared("trap_fraction", laws),
+        sizes(n_realizations, seed),
     )
-    reduced, length = _units(physics)
-    laws = trap.MAJORANT, 1.0, 0.0
-
-    def draw(values, nodes, stream):
-        probe = radius / length, float(angular_frequency * time)
-        return trap_tree.estimate_fraction(values, nodes, *probe, reduced, laws, max_nodes, stream)
-
+    length, coupling = _scaled(gas)
+    phase = angular_frequency * time
+    draw = trap_tree.trap_fraction(radius / length, phase, coupling=coupling, **laws)
     return estimate_from(draw, 1.0, n_realizations, seed, "boltzmann.estimate_trap_fraction")

@@ -13,7 +13,8 @@ import numpy as np
 from numba import int64
 
 from kacsim.boltzmann.model import DEPTH, bkw_leaf, shell, speed_beyond
-from kacsim.jit import inlined, kernel
+from kacsim.boltzmann.trap import MAJORANT, flow
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import exponential, half_normal, random_sign, uniform
 
 
@@ -233,3 +234,34 @@ def beyond(values, nodes, threshold, time, physics, choices, max_nodes, energy, 
         if nodes[k] < 0:
             return False
     return True
+
+
+def _laws(initial, breathing, start_phase, coupling, majorant_factor, spread, anisotropy):
+    """Return the kernels' physics and choices from the sampler's parameters."""
+    start = 1.0 if initial == "bkw" else 0.0
+    physics = float(coupling), float(breathing), float(start_phase), start
+    return physics, (MAJORANT * majorant_factor, float(spread), float(anisotropy))
+
+
+def at(radius, radial, tangential, time, *, max_nodes, **laws):
+    """Return Algorithms 5 and 6 at one probe, in units of the breathing state."""
+    fixed = float(radius), float(radial), float(tangential), float(time), *_laws(**laws), max_nodes
+    return lambda values, nodes, stream: estimate(values, nodes, *fixed, stream)
+
+
+def trap(radius, time, **parameters):
+    """Return `at` with the velocity that the flow has at the radius at time 0."""
+    speed = flow(radius, 0.0, float(parameters["breathing"]), float(parameters["start_phase"]))
+    return at(radius, float(speed), 0.0, time, **parameters)
+
+
+def trap_fraction(radius, time, *, max_nodes, **laws):
+    """Return Algorithm 7 at one radius: callable(values, nodes, stream)."""
+    fixed = float(radius), float(time), *_laws(**laws), max_nodes
+    return lambda values, nodes, stream: estimate_fraction(values, nodes, *fixed, stream)
+
+
+def trap_energy(radius, time, *, max_nodes, **laws):
+    """Return the mechanical energy beyond a radius: callable(values, nodes, stream)."""
+    fixed = float(radius), float(time), *_laws(**laws), max_nodes
+    return lambda values, nodes, stream: estimate_energy(values, nodes, *fixed, stream)

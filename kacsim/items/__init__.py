@@ -6,13 +6,13 @@ xarray.Dataset``, ``draw(dataset) -> Figure`` and, if the texts state something 
 configuration and its schema, and its caption.
 """
 
+import functools
 import importlib
 import pkgutil
 import re
 
-import yaml
-
-from kacsim.provenance import ROOT
+from kacsim import files
+from kacsim.kernels.provenance import ROOT
 
 
 def _order(name):
@@ -33,10 +33,20 @@ def load(name):
     return importlib.import_module(f"kacsim.items.{name}")
 
 
+def uses(name):
+    """Return the items whose findings an item gathers."""
+    return getattr(load(name), "USES", ())
+
+
+@functools.cache
 def published():
     """Return claim id -> published entry, from reports/published.yaml."""
-    text = (ROOT / "reports" / "published.yaml").read_text(encoding="utf-8")
-    return yaml.safe_load(text)
+    return files.read_yaml(ROOT / "reports" / "published.yaml")
+
+
+def shows(entry, names):
+    """Tell whether a published entry belongs to one of some items."""
+    return not {entry["item"], *entry.get("also", ())}.isdisjoint(names)
 
 
 def reduced(name, samples, settings):
@@ -53,6 +63,5 @@ def reduced(name, samples, settings):
     xarray.Dataset with attributes ``settings`` and ``published`` (claim id -> value)
     """
     dataset = load(name).reduce(samples, settings)
-    shown = {k: e for k, e in published().items() if name in (e["item"], *e.get("also", ()))}
-    values = {key: entry["value"] for key, entry in shown.items()}
+    values = {key: entry["value"] for key, entry in published().items() if shows(entry, (name,))}
     return dataset.assign_attrs(settings=settings, published=values)

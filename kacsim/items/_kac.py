@@ -3,8 +3,11 @@
 import math
 
 from kacsim.cases import make_case
-from kacsim.checks import RATE, STEPPED
 from kacsim.items._lazy import estimate, exact, histogram, kac, np, store, xr
+from kacsim.kac.constants import RATE
+from kacsim.kac.samplers import STEPPED
+
+FOLLOWED = ("engine", "keep_above")  # how a case follows its process, and what it keeps
 
 
 def velocity_case(settings, algorithm, n_particles, time_step=None, **others):
@@ -101,14 +104,8 @@ def fourth_moment_of(sample, case):
 
 def exact_moment(case, time=None):
     """Return the exact E v_1**4 of the case's own process: finite N, finite step."""
-    p = case.parameters
-    return kac.fourth_moment(
-        p["time"] if time is None else time,
-        p["n_particles"],
-        algorithm=p["algorithm"],
-        time_step=p["time_step"],
-        collision_rate=p["collision_rate"],
-    )
+    process = {key: value for key, value in case.parameters.items() if key not in FOLLOWED}
+    return kac.fourth_moment(**process if time is None else process | {"time": time})
 
 
 def limit_moment(time):

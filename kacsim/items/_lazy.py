@@ -1,33 +1,24 @@
 """Heavy modules, imported at their first use: the plan reads every item at every start."""
 
-import importlib
+from kacsim.kernels.lookup import lazy
 
-
-class _Lazy:
-    def __init__(self, name):
-        self._name = name
-
-    def __getattr__(self, attribute):
-        return getattr(importlib.import_module(self._name), attribute)
-
-
-np = _Lazy("numpy")
-xr = _Lazy("xarray")
-kac = _Lazy("kacsim.kac")
-ancestors = _Lazy("kacsim.kac.ancestors")
-bkw = _Lazy("kacsim.boltzmann.bkw")
-extinction = _Lazy("kacsim.boltzmann.extinction")
-trap = _Lazy("kacsim.boltzmann.trap")
-exact = _Lazy("kacsim.kac.exact")
-moments = _Lazy("kacsim.kac.moments")
-techniques_exact = _Lazy("kacsim.techniques.exact")
-flux = _Lazy("kacsim.techniques.flux")
-inverse_transform = _Lazy("kacsim.techniques.inverse_transform")
-estimate = _Lazy("kacsim.statistics.estimate")
-histogram = _Lazy("kacsim.statistics.histogram")
-slope = _Lazy("kacsim.statistics.slope")
-special = _Lazy("scipy.special")
-tail = _Lazy("kacsim.statistics.tail")
-verdict = _Lazy("kacsim.statistics.verdict")
-store = _Lazy("kacsim.store")
-plotting = _Lazy("kacsim.plotting")
+np = lazy("numpy")
+xr = lazy("xarray")
+kac = lazy("kacsim.kac")
+ancestors = lazy("kacsim.kac.ancestors")
+bkw = lazy("kacsim.boltzmann.bkw")
+extinction = lazy("kacsim.boltzmann.extinction")
+trap = lazy("kacsim.boltzmann.trap")
+exact = lazy("kacsim.kac.exact")
+nanbu_babovsky = lazy("kacsim.kac.nanbu_babovsky")
+techniques_exact = lazy("kacsim.techniques.exact")
+flux = lazy("kacsim.techniques.flux")
+inverse_transform = lazy("kacsim.techniques.inverse_transform")
+estimate = lazy("kacsim.statistics.estimate")
+histogram = lazy("kacsim.statistics.histogram")
+slope = lazy("kacsim.statistics.slope")
+special = lazy("scipy.special")
+tail = lazy("kacsim.statistics.tail")
+verdict = lazy("kacsim.statistics.verdict")
+store = lazy("kacsim.store")
+plotting = lazy("kacsim.plotting")

@@ -3,9 +3,9 @@
 import math
 
 from kacsim.cases import make_case
-from kacsim.checks import ALGORITHMS, NAMES, STEPPED
 from kacsim.items import _kac
-from kacsim.items._lazy import estimate, moments, np, plotting, store, verdict, xr
+from kacsim.items._lazy import estimate, nanbu_babovsky, np, plotting, store, verdict, xr
+from kacsim.kac.samplers import ALGORITHMS, STEPPED, TITLES
 
 
 def _particle_grid(settings):
@@ -46,7 +46,7 @@ def cases(settings):
 
 
 def reduce(samples, settings):
-    """Return measured and exact fourth moments, and the collisions that Poisson spares."""
+    """Return measured and exact fourth nanbu_babovsky, and the collisions that Poisson spares."""
     by_n = _moments(samples, _particle_grid(settings), ALGORITHMS, settings["n_particles"])
     by_step = _moments(samples, _step_grid(settings), STEPPED, settings["time_step"])
     described, variables = store.described, {}
@@ -69,11 +69,11 @@ def reduce(samples, settings):
         "spared": described(rate * n * settings["time"] / 2 - simulated.value, (), "spared"),
         "spared_error": described(simulated.standard_error, (), "its standard error"),
         "replacement": described(
-            moments.nanbu_babovsky(
-                n,
-                round(settings["time"] / settings["time_step"][0]),
-                rate * settings["time_step"][0],
-                replacement=True,
+            nanbu_babovsky.fourth_moment_with_replacement(
+                n_particles=n,
+                time=settings["time"],
+                time_step=settings["time_step"][0],
+                collision_rate=rate,
             ),
             (),
             "exact mean of v_1**4 of Nanbu-Babovsky, pairs with replacement, largest step",
@@ -138,10 +138,10 @@ def draw(dataset):
     figure, axes = plotting.panels(1, 2)
     for k, algorithm in enumerate(dataset.algorithm.values):
         here = dataset.sel(algorithm=algorithm)
-        _series(axes[0], here.n_particles, here, "", k, NAMES[str(algorithm)])
+        _series(axes[0], here.n_particles, here, "", k, TITLES[str(algorithm)])
     for k, algorithm in enumerate(dataset.stepped.values):
         here = dataset.sel(stepped=algorithm)
-        _series(axes[1], here.time_step, here, "step_", k, NAMES[str(algorithm)])
+        _series(axes[1], here.time_step, here, "step_", k, TITLES[str(algorithm)])
     for axis in axes:
         axis.axhline(float(dataset.limit), color="black", ls="--", lw=1, label="$N\\to\\infty$")
         axis.set_xscale("log")

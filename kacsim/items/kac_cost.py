@@ -2,9 +2,10 @@
 
 import math
 
-from kacsim.checks import NAMES, RATE
 from kacsim.items import _kac
 from kacsim.items._lazy import ancestors, estimate, np, plotting, store, xr
+from kacsim.kac.constants import RATE
+from kacsim.kac.samplers import TITLES
 
 FORWARD, ANCESTRAL = ("bird", "poisson"), ("bird", "poisson")
 
@@ -104,7 +105,7 @@ def draw(dataset):
     figure, axes = plotting.panels(1, 2)
     finite = dataset.where(np.isfinite(dataset.n_particles), drop=True)
     for k, algorithm in enumerate(dataset.algorithm.values):
-        name = NAMES[str(algorithm)]
+        name = TITLES[str(algorithm)]
         here, there = dataset.sel(algorithm=algorithm), finite.sel(algorithm=algorithm)
         style = {"line": False}
         plotting.points(

@@ -3,8 +3,8 @@
 import math
 
 from kacsim.cases import make_case
-from kacsim.checks import MEAN_ENERGY
 from kacsim.items._lazy import np, plotting, store, xr
+from kacsim.kac.constants import MEAN_ENERGY
 
 NUMBERS = ("mean", "error", "spread", "least", "most")
 

@@ -1,8 +1,8 @@
 """Fig. 1 of the Kac paper: histograms of v_1 under Nanbu's algorithm, small and large step."""
 
-from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, plotting, store, verdict
+from kacsim.kac.samplers import TITLES
 
 READINGS = ("nanbu_sequential", "nanbu_synchronous")
 
@@ -79,7 +79,7 @@ def draw(dataset):
         here = dataset.sel(time_step=step)
         for r, reading in enumerate(READINGS):
             mean, _ = _tvn(dataset, reading, step)
-            label = f"{NAMES[reading]}\nTVN {plotting.pm(mean)}"
+            label = f"{TITLES[reading]}\nTVN {plotting.pm(mean)}"
             density = here.density.sel(reading=reading)
             plotting.bars(axis, here.edge, density, r, label, fill=r == 0)
         plotting.solution(axis, dataset.attrs["settings"]["time"])

@@ -1,8 +1,8 @@
 """Fig. 2 of the Kac paper: mean TVN of Nanbu's algorithm against k, step = 2 / 2**k."""
 
-from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, histogram, np, plotting, store, verdict, xr
+from kacsim.kac.samplers import TITLES
 
 READINGS = ("nanbu_sequential", "nanbu_synchronous")
 REFERENCES = ("bird", "poisson")
@@ -138,7 +138,7 @@ def draw(dataset):
         axis.axhspan(*band, color="0.8", lw=0, zorder=0)
         axis.axhline(mean.value, color="black", lw=1, label=f"Bird, $N$ = {least}")
         plotting.floor(axis, float(here.floor))
-        axis.set_title(NAMES[reading])
+        axis.set_title(TITLES[reading])
         axis.set_xlabel("$k$, time step $\\Delta t = 2/2^k$")
     axes[0].set_ylabel("mean TVN against eq. (8)")
     axes[0].set_yscale("log")

@@ -1,8 +1,8 @@
 """Fig. 3 of the Kac paper: mean TVN of Nanbu, Bird and Poisson against the number of particles."""
 
-from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, np, plotting, verdict
+from kacsim.kac.samplers import TITLES
 
 ALGORITHMS = ("nanbu_sequential", "bird", "poisson", "poisson_printed")
 DIMS = ("algorithm", "n_particles")
@@ -103,7 +103,7 @@ def draw(dataset):
     here = dataset.isel(bin_width=0)
     for k, algorithm in enumerate(ALGORITHMS):
         line = here.sel(algorithm=algorithm)
-        label = NAMES[algorithm]
+        label = TITLES[algorithm]
         plotting.points(axis, line.n_particles, line.tvn, line.tvn_error, k, label)
     plotting.floor(axis, float(here.floor))
     axis.set_xscale("log")

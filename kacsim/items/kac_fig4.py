@@ -1,8 +1,8 @@
 """Fig. 4 of the Kac paper: histograms of v_1 under Bird's and the Poisson algorithm."""
 
-from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, plotting, store
+from kacsim.kac.samplers import TITLES
 
 ALGORITHMS = ("bird", "poisson")
 
@@ -32,7 +32,7 @@ def draw(dataset):
         mean = estimate.Mean(float(here.tvn), float(here.tvn_error))
         plotting.bars(axis, here.edge, here.density, k, f"TVN {plotting.pm(mean)}")
         plotting.solution(axis, dataset.attrs["settings"]["time"])
-        axis.set_title(NAMES[algorithm])
+        axis.set_title(TITLES[algorithm])
         plotting.velocity_axis(axis)
     plotting.legends_above(axes, share=0.25)
     plotting.density_axis(axes[0])

@@ -1,8 +1,8 @@
 """Fig. 5 of the Kac paper: histograms of upper tail values of v_1, Bird and Poisson."""
 
-from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, histogram, np, plotting, store, tail, verdict, xr
+from kacsim.kac.samplers import TITLES
 
 ALGORITHMS = ("bird", "poisson")
 VARIABLES = ("tail_share", "tail_low", "tail_high")
@@ -85,7 +85,7 @@ def draw(dataset):
         axis.set_yscale("log")
         axis.set_ylim(1e-4, 10)
         axis.set_xlim(settings["tail_above"], 6.0)
-        axis.set_title(NAMES[algorithm])
+        axis.set_title(TITLES[algorithm])
         axis.set_xlabel("velocity $v_1$")
         axis.legend()
         _ratios(axes[-1], here, k)
@@ -101,6 +101,6 @@ def _ratios(axis, here, k):
     ratio, low, high = (here[name] / here.tail_exact for name in VARIABLES)
     errors = np.maximum(0.0, [ratio - low, high - ratio])
     shifted = here.threshold + 0.03 * (k - 0.5)
-    name = NAMES[str(here.algorithm.values)]
+    name = TITLES[str(here.algorithm.values)]
     plotting.points(axis, shifted, ratio, errors, k, name, line=False)
     axis.set_xticks(here.threshold.values)

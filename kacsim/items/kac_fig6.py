@@ -2,9 +2,9 @@
 
 import math
 
-from kacsim.checks import MEAN_ENERGY
 from kacsim.items import _corners
 from kacsim.items._lazy import np, plotting, store, verdict, xr
+from kacsim.kac.constants import MEAN_ENERGY
 
 
 def cases(settings):

@@ -3,8 +3,8 @@
 import math
 
 from kacsim.cases import make_case
-from kacsim.checks import RATE
 from kacsim.items._lazy import exact, np, plotting, store, xr
+from kacsim.kac.constants import RATE
 
 
 def _case(settings, time):

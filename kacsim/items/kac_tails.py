@@ -2,10 +2,11 @@
 
 import math
 
-from kacsim.checks import NAMES
 from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, np, plotting, store, tail, verdict, xr
+from kacsim.kac.samplers import TITLES
 
+ENDLESS = {"endless": "Poisson, N = ∞"}
 SERIES = ("bird", "poisson", "poisson_printed", "endless")
 
 
@@ -67,7 +68,7 @@ def claims(dataset):
     """Test whether Poisson is nearer than Bird to the exact tail at one threshold."""
     x = dataset.attrs["settings"]["claim_threshold"]
     miss = {name: _miss(dataset, name, x) for name in SERIES}
-    scores = ", ".join(f"{NAMES[name]} {mean.z():+.1f}" for name, mean in miss.items())
+    scores = ", ".join(f"{(TITLES | ENDLESS)[name]} {mean.z():+.1f}" for name, mean in miss.items())
     gap = abs(miss["bird"].value) - abs(miss["poisson"].value)
     return [
         verdict.Finding(
@@ -86,7 +87,7 @@ def draw(dataset):
         here = dataset.sel(series=series)
         ratio, low, high = (here[name] / here.exact for name in ("share", "low", "high"))
         errors = np.maximum(0.0, [ratio - low, high - ratio])
-        label = NAMES[series]
+        label = (TITLES | ENDLESS)[series]
         x = here.threshold + 0.05 * (k - 1.5)
         for axis in axes:
             plotting.points(axis, x, ratio, errors, k, label, line=False)

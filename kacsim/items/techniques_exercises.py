@@ -3,7 +3,8 @@
 import math
 
 from kacsim.items import _techniques
-from kacsim.items._lazy import estimate, flux, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.techniques.constants import flux_at_rest
 
 METHODS = ("hits", "heights")
 LABELS = ("points below the curve", "mean height")
@@ -13,7 +14,7 @@ BINS = 50
 def _cases(settings):
     half = settings["half_width"]
     area = 4.0 * half[1] * half[2]
-    rate = area * flux.flux_density(1.0, 0.0, settings["temperature"]) * settings["step"]
+    rate = area * flux_at_rest(1.0, settings["temperature"]) * settings["step"]
     return {
         "exponential": _techniques.case(
             settings, "inversion", law="exponential", rate=settings["rate"]

@@ -1,6 +1,5 @@
 """Fig. 11.1 of the chapter: inverse transform by a table equally spaced in u, and its error."""
 
-from kacsim.checks_techniques import SUPPORT
 from kacsim.items import _techniques
 from kacsim.items._lazy import (
     estimate,
@@ -13,6 +12,7 @@ from kacsim.items._lazy import (
     verdict,
     xr,
 )
+from kacsim.techniques.constants import SUPPORT
 
 LAWS = ("kac_initial", "exponential", "ramp")
 SHOWN, COARSE = LAWS[0], 2  # the law and the place of the table that are drawn in full

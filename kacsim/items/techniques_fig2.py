@@ -1,8 +1,8 @@
 """Fig. 11.2 of the chapter: rejection under a constant and a closer envelope, and its cost."""
 
-from kacsim.checks_techniques import SUPPORT
 from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.techniques.constants import SUPPORT
 
 METHODS = (("kac_initial", "constant"), ("kac_initial", "closer"), ("triangle", "constant"))
 LABELS = ("$f_0$, constant", "$f_0$, closer", "triangle, constant")

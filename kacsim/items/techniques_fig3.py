@@ -2,9 +2,9 @@
 
 import math
 
-from kacsim.checks_techniques import FACES
 from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, flux, np, plotting, store, verdict, xr
+from kacsim.techniques.constants import FACES
 
 SOURCES = ("injection", "outer_gas")
 LABELS = ("injected", "gas outside, moved")

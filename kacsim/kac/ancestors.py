@@ -10,7 +10,7 @@ import math
 import numpy as np
 from scipy import integrate
 
-from kacsim.checks import RATE
+from kacsim.kac.constants import RATE
 
 TAIL = 40.0  # states up to TAIL times the mean number of ancestors are kept: exp(-TAIL) is lost
 

@@ -5,7 +5,6 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.jit import inlined, kernel
 from kacsim.kac.model import (
     collide,
     copy_state,
@@ -14,10 +13,12 @@ from kacsim.kac.model import (
     replay,
     signed_root,
 )
+from kacsim.kac.moments import INITIAL_SQUARE, gain
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import failures_before_success, gap_scale, index_below, pair_below, uniform
 
 
-def arguments(*, n_particles, time, collision_rate, **_):
+def arguments(*, n_particles, time, collision_rate):
     """Return the kernels' parameters: the particles and the collisions of one ensemble.
 
     One collision per 2 / (rate N) until the clock reaches t: ceil(rate N t / 2) of them.
@@ -105,3 +106,10 @@ def touch_scales(n_particles):
     for members in range(scales.size):
         scales[members] = touch_scale(members, n_particles)
     return scales
+
+
+def fourth_moment(*, n_particles, time, collision_rate):
+    """Return E v_1**4 after a fixed number of collisions of uniform pairs."""
+    n, collisions = arguments(n_particles=n_particles, time=time, collision_rate=collision_rate)
+    ratio = 1.0 - (n + 2.0) / (2.0 * n * (n - 1.0))
+    return INITIAL_SQUARE + gain(n) * (1.0 - ratio**collisions)

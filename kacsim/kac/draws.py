@@ -1,28 +1,28 @@
-"""The public draws of Kac's model, and the table of its algorithms."""
+"""The public draws of Kac's model."""
 
 import numpy as np
 
 from kacsim import checks
-from kacsim.checks import MEAN_ENERGY, RATE
-from kacsim.kac import bird, nanbu, nanbu_babovsky, perfect, poisson
+from kacsim.cases import make_case
+from kacsim.kac import perfect
+from kacsim.kac.constants import RATE
+from kacsim.kernels.lookup import named
 from kacsim.streams import new_stream
-
-# algorithm -> (parameters of its kernels, forward kernel, ancestral kernel)
-KERNELS = {
-    "nanbu_sequential": (nanbu.arguments, nanbu.forward_sequential, nanbu.ancestral_sequential),
-    "nanbu_synchronous": (nanbu.arguments, nanbu.forward_synchronous, nanbu.ancestral_synchronous),
-    "nanbu_babovsky": (nanbu_babovsky.arguments, nanbu_babovsky.forward, nanbu_babovsky.ancestral),
-    "bird": (bird.arguments, bird.forward, bird.ancestral),
-    "poisson": (poisson.arguments, poisson.forward, poisson.ancestral),
-    "poisson_printed": (poisson.arguments, poisson.forward, poisson.ancestral),
-}
 
 
 def kernel_of(parameters):
-    """Return (kernel, arguments) of one algorithm on one engine, from checked parameters."""
-    arguments, forward, ancestral = KERNELS[parameters["algorithm"]]
-    kernel = forward if parameters["engine"] == "forward" else ancestral
-    return kernel, arguments(**parameters)
+    """Return (kernel, arguments) of one algorithm on one engine, from a case's parameters.
+
+    The algorithm is the module of its name, the engine its kernel; the module's ``arguments`` take
+    what describes the ensemble, and the algorithm's own parameters.
+    """
+    own = {key: value for key, value in parameters.items() if key not in NOT_OF_THE_ENSEMBLE}
+    arguments = named("kacsim.kac", parameters["algorithm"], "arguments")
+    kernel = named("kacsim.kac", parameters["algorithm"], parameters["engine"])
+    return kernel, arguments(**own)
+
+
+NOT_OF_THE_ENSEMBLE = ("algorithm", "engine", "keep_above")
 
 
 def draw(
@@ -32,9 +32,9 @@ def draw(
     time,
     n_draws,
     seed,
-    time_step=None,
     collision_rate=RATE,
     engine="ancestral",
+    **parameters,
 ):
     """Draw independent values of v_1(t), each from an ensemble of its own (Kac paper, section 4).
 
@@ -45,9 +45,10 @@ def draw(
     time : float > 0
     n_draws : int >= 1
     seed : int >= 0; the same arguments give the same bits
-    time_step : float that divides time, Nanbu family only; collision_rate * time_step <= 1
     collision_rate : float > 0, sqrt(pi) / 2 in the paper
     engine : "ancestral" (particle 1's ancestors only) or "forward" (as published); same law
+    parameters : those that the algorithm has beside these: time_step of the Nanbu family, a float
+        that divides time, with collision_rate * time_step <= 1
 
     Returns
     -------
@@ -58,17 +59,20 @@ def draw(
     ValueError
         Names the argument, its value and what is allowed.
     """
-    parameters = {
-        "algorithm": algorithm,
-        "engine": engine,
-        "n_particles": n_particles,
-        "time": time,
-        "time_step": time_step,
-        "collision_rate": collision_rate,
-    }
-    checks.raise_problems(checks.kac(**parameters))
-    checks.raise_problems(checks.amount(n_draws=n_draws, n_replicates=1, seed=seed))
-    kernel, arguments = kernel_of(parameters)
+    case = make_case(
+        "kac",
+        algorithm=algorithm,
+        engine=engine,
+        n_particles=n_particles,
+        time=time,
+        collision_rate=collision_rate,
+        n_draws=n_draws,
+        n_replicates=1,
+        seed=seed,
+        **parameters,
+    )
+    checks.raise_problems(case.problems())
+    kernel, arguments = kernel_of(case.parameters)
     velocities, own = np.empty(n_draws), np.empty(n_draws, np.int64)
     kernel(velocities, own, *arguments, new_stream(seed, f"kac.draw {algorithm} {engine}"))
     return velocities
@@ -94,11 +98,17 @@ def draw_equilibrium(*, n_particles, tolerance, n_draws, seed, energy=None):
     ValueError
         Names the argument, its value and what is allowed.
     """
-    problems = checks.kac_equilibrium(n_particles=n_particles, tolerance=tolerance, energy=energy)
-    checks.raise_problems(problems)
-    checks.raise_problems(checks.amount(n_draws=n_draws, n_replicates=1, seed=seed))
+    case = make_case(
+        "kac_equilibrium",
+        n_particles=n_particles,
+        tolerance=tolerance,
+        energy=energy,
+        n_draws=n_draws,
+        n_replicates=1,
+        seed=seed,
+    )
+    checks.raise_problems(case.problems())
     velocities, times = np.empty(n_draws), np.empty(n_draws, np.int64)
-    total = MEAN_ENERGY * n_particles if energy is None else energy
     stream = new_stream(seed, "kac.draw_equilibrium")
-    perfect.couple(velocities, times, n_particles, float(total), float(tolerance), stream)
+    perfect.couple(velocities, times, *perfect.arguments(**case.parameters), stream)
     return velocities, times

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy import special
 
-from kacsim.checks import MEAN_ENERGY, RATE
+from kacsim.kac.constants import MEAN_ENERGY, RATE
 
 
 def shape(time, collision_rate=RATE):

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from kacsim.jit import inlined
+from kacsim.kernels.jit import inlined
 from kacsim.variates import exponential, half_normal, random_sign, squared_cosine, unit_circle
 
 

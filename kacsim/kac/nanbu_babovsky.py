@@ -5,8 +5,7 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.checks import n_steps
-from kacsim.jit import inlined, kernel
+from kacsim.kac.constants import n_steps
 from kacsim.kac.model import (
     collide,
     copy_state,
@@ -15,10 +14,12 @@ from kacsim.kac.model import (
     replay,
     signed_root,
 )
+from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE, gain
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import failures_before_success, gap_scale, index_below, uniform
 
 
-def arguments(*, n_particles, time, time_step, collision_rate, **_):
+def arguments(*, n_particles, time, time_step, collision_rate):
     """Return the kernels' parameters: particles, steps, and mean number of pairs of a step."""
     return n_particles, n_steps(time, time_step), collision_rate * n_particles * time_step / 2
 
@@ -182,3 +183,32 @@ def untaken(i, rank, taken):
         rank -= not taken[j]
         j += 1
     return j
+
+
+def fourth_moment(*, n_particles, time, time_step, collision_rate):
+    """Return E v_1**4 of disjoint pairs; linear in their number, so its mean is enough."""
+    n, steps, pairs = arguments(
+        n_particles=n_particles, time=time, time_step=time_step, collision_rate=collision_rate
+    )
+    probability = 2.0 * pairs / n
+    a, b = INITIAL_SQUARE, INITIAL_PRODUCT
+    together = pairs / (n * (n - 1.0) / 2.0)
+    for _ in range(steps):
+        change = 0.75 * (a + b) - a
+        a, b = a + probability * change, b + together * (0.25 * (a + b) - b)
+    return a
+
+
+def fourth_moment_with_replacement(*, n_particles, time, time_step, collision_rate):
+    """Return E v_1**4 when the pairs of a step are drawn one after another, as the text once says.
+
+    Each step then makes Round[rate N step / 2] collisions of uniform pairs.
+    """
+    n, steps, pairs = arguments(
+        n_particles=n_particles, time=time, time_step=time_step, collision_rate=collision_rate
+    )
+    ratio = 1.0 - (n + 2.0) / (2.0 * n * (n - 1.0))
+    whole = math.floor(pairs)
+    more = pairs - whole
+    per_step = ratio**whole * (1.0 - more + more * ratio)
+    return INITIAL_SQUARE + gain(n) * (1.0 - per_step**steps)

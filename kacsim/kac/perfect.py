@@ -12,12 +12,19 @@ import math
 
 import numpy as np
 
-from kacsim.jit import inlined, kernel
+from kacsim.kac.constants import MEAN_ENERGY
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import pair_below, random_sign, squared_cosine
 
 # Contraction of D per step is about RATE / N: a guess that sets when D is checked, nothing else.
 CONTRACTION_RATE = 0.3
 BLOCK = 4096
+
+
+def arguments(*, n_particles, tolerance, energy=None):
+    """Return the kernel's parameters: particles, energy (3 N / 2 by default) and tolerance."""
+    total = MEAN_ENERGY * n_particles if energy is None else energy
+    return n_particles, float(total), float(tolerance)
 
 
 @inlined

@@ -1,9 +1,8 @@
-"""The Poisson algorithm, exact for the N-particle process, and as printed (Kac paper, 4.3).
+"""The Poisson algorithm, exact for the N-particle process (Kac paper, 4.3).
 
-Both are one kernel: they differ in the rate at which the other N - 1 particles collide among
-themselves. The ensemble's rate N/2 less particle 1's own 1 (in units of the collision rate)
-leaves (N - 2)/2, i.e. 1/(N - 1) for each of their pairs; the text prints (N - 1)/2, i.e.
-1/(N - 2) for each pair.
+The ensemble's rate N/2 less particle 1's own 1 (in units of the collision rate) leaves (N - 2)/2
+for the other N - 1 particles, i.e. 1/(N - 1) for each of their pairs. The text prints another rate:
+`kacsim.kac.poisson_printed` runs these kernels with it.
 """
 
 import math
@@ -11,7 +10,6 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.jit import inlined, kernel
 from kacsim.kac.model import (
     collide,
     copy_state,
@@ -20,10 +18,12 @@ from kacsim.kac.model import (
     replay,
     signed_root,
 )
+from kacsim.kac.moments import INITIAL_SQUARE, gain
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import exponential, index_below, pair_below, uniform
 
 
-def arguments(*, algorithm, n_particles, time, collision_rate, **_):
+def arguments(*, n_particles, time, collision_rate):
     """Return the kernels' parameters: particles, mean collisions of particle 1, rate of a pair.
 
     Infinitely many particles are passed as 0. The pair's rate is that of two particles other
@@ -31,12 +31,12 @@ def arguments(*, algorithm, n_particles, time, collision_rate, **_):
     """
     if math.isinf(n_particles):
         return 0, collision_rate * time, 0.0
-    others = n_particles - (1 if algorithm == "poisson" else 2)
-    return n_particles, collision_rate * time, 0.0 if n_particles == 2 else 1.0 / others
+    pair_rate = 0.0 if n_particles == 2 else 1.0 / (n_particles - 1)
+    return n_particles, collision_rate * time, pair_rate
 
 
 @inlined
-def poisson_number(mean, stream):
+def unit_arrivals(mean, stream):
     """Return a Poisson variate by counting unit-rate arrivals before `mean`."""
     number = 0
     clock = exponential(stream)
@@ -71,7 +71,7 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
     for draw in range(velocities.size):
         for i in range(n_particles):
             v[i] = initial_velocity(stream)
-        n_own = poisson_number(mean_own, stream)
+        n_own = unit_arrivals(mean_own, stream)
         span = mean_own
         for k in range(n_own, 0, -1):
             gap = -span * math.expm1(-exponential(stream) / k)
@@ -132,3 +132,9 @@ def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream, first, 
         own[draw] = touched
         simulated += n
     return velocities.size, simulated
+
+
+def fourth_moment(*, n_particles, time, collision_rate):
+    """Return E v_1**4 of Kac's N-particle process."""
+    rate = collision_rate * (n_particles + 2) / (4.0 * (n_particles - 1))
+    return INITIAL_SQUARE + gain(n_particles) * -math.expm1(-rate * time)

@@ -3,10 +3,12 @@
 import math
 
 from kacsim import checks
-from kacsim.boltzmann import estimators, kac_tree
-from kacsim.checks import MAX_NODES, RATE
+from kacsim.boltzmann import estimators
+from kacsim.boltzmann.constants import MAX_NODES
+from kacsim.kac import probe_tree
+from kacsim.kac.constants import RATE
+from kacsim.samplers import declared
 
-THERMAL = math.sqrt(1.5)  # RMS velocity of eq. (9)
 INITIAL_SECOND_MOMENT = 27.0 * 3.0 / 5.0**2.5  # E_M[(f0 / M)**2] = 1.44897
 
 
@@ -50,19 +52,20 @@ def estimate_density(
     kacsim.boltzmann.BudgetError
         If a tree exceeds max_nodes.
     """
-    estimators.check(
+    tree = {"oversampling": oversampling, "onset": onset, "max_nodes": max_nodes}
+    checks.raise_problems(
         checks.finite("v", v),
         checks.not_negative("time", time),
-        checks.at_least("oversampling", oversampling, 1.0),
-        checks.not_negative("onset", onset),
+        declared("kac_probe", tree),
         checks.positive("collision_rate", collision_rate),
-        estimators.sizes(n_realizations, seed, max_nodes),
+        estimators.sizes(n_realizations, seed),
     )
 
-    def draw(values, nodes, stream):
-        probe = abs(v) / THERMAL, float(collision_rate * time)
-        more = float(oversampling), float(collision_rate * onset)
-        return kac_tree.estimate(values, nodes, *probe, *more, max_nodes, stream)
-
+    draw = probe_tree.kac_probe(
+        v,
+        time,
+        collision_rate=collision_rate,
+        **tree,
+    )
     factor = math.exp(-v * v / 3.0) / math.sqrt(3.0 * math.pi)
     return estimators.estimate_from(draw, factor, n_realizations, seed, "kac.estimate_density")

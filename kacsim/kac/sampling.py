@@ -9,12 +9,14 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.checks import MEAN_ENERGY
-from kacsim.jit import kernel
+from kacsim.boltzmann.sampling import sample as sample_kac_probe
 from kacsim.kac import draws, perfect
+from kacsim.kernels.jit import kernel
 from kacsim.statistics.histogram import FINE_BINS, FINE_WIDTH, LIMIT, fine_edges
 from kacsim.store import described
 from kacsim.streams import new_stream
+
+__all__ = ["KEPT", "sample_kac", "sample_kac_corners", "sample_kac_equilibrium", "sample_kac_probe"]
 
 CHUNK = 8192
 ORDERS = (2, 4, 6, 8)
@@ -119,9 +121,7 @@ def sample_kac_equilibrium(case, progress):
     -------
     dict of as `sample_kac`, with coupling_time[draw] in place of collisions
     """
-    p = case.parameters
-    n_particles = p["n_particles"]
-    energy = MEAN_ENERGY * n_particles if p["energy"] is None else float(p["energy"])
+    arguments = perfect.arguments(**case.parameters)
     rows = len(case.replicates)
     kept = np.empty(min(KEPT, case.n_draws * rows), np.int64)
     lowest = np.full(rows, np.iinfo(np.int64).max)
@@ -132,7 +132,7 @@ def sample_kac_equilibrium(case, progress):
     def fill(velocities, row, stream):
         nonlocal filled
         times = np.empty(velocities.size, np.int64)
-        perfect.couple(velocities, times, n_particles, energy, p["tolerance"], stream)
+        perfect.couple(velocities, times, *arguments, stream)
         lowest[row] = min(lowest[row], times.min())
         highest[row] = max(highest[row], times.max())
         sums[:, row] += times.sum(), (times.astype(float) ** 2).sum()
@@ -163,10 +163,7 @@ def sample_kac_corners(case, progress):
     0, its inputs first, second, squared_sine[step]; for all runs diameter[run, step], forward
     from step 0, nan after coupling, and same_pair[run, step]
     """
-    p = case.parameters
-    n = p["n_particles"]
-    energy = MEAN_ENERGY * n
-    runs = [_one_run(n, energy, p["tolerance"], case, k) for k in range(case.n_draws)]
+    runs = [_one_run(case, k) for k in range(case.n_draws)]
     progress(case.n_draws)
     longest = max(run["diameter"].size for run in runs)
     diameter = np.full((len(runs), longest), np.nan)
@@ -189,9 +186,10 @@ def sample_kac_corners(case, progress):
     }
 
 
-def _one_run(n, energy, tolerance, case, index):
+def _one_run(case, index):
     """Return one coupled run: corner points at times -n..0, D after each step, repeated pairs."""
     velocities, times = np.empty(1), np.empty(1, np.int64)
+    n, energy, tolerance = perfect.arguments(**case.parameters)
     perfect.couple(velocities, times, n, energy, tolerance, new_stream(case.seed, case.id, index))
     steps = int(times[0])
     inputs = perfect.record(n, steps, new_stream(case.seed, case.id, index))
@@ -208,10 +206,3 @@ def _one_run(n, energy, tolerance, case, index):
         "diameter": diameter,
         "same": same,
     }
-
-
-SAMPLERS = {
-    "kac": sample_kac,
-    "kac_equilibrium": sample_kac_equilibrium,
-    "kac_corners": sample_kac_corners,
-}

@@ -1,25 +1,15 @@
 """The tools of the two papers: inversion, rejection, injection, integration (the chapter)."""
 
-import importlib
+import lazy_loader
 
 # Loaded at first use: formulas need no compiler.
-_HOME = {
-    "draw_by_inversion": "inverse_transform",
-    "draw_by_rejection": "rejection",
-    "draw_from_table": "inverse_transform",
-    "inject": "injection",
-    "inject_particles": "particles",
-    "integrate": "integration",
-    "lattice_count": "integration",
-    "sphere_volume": "integration",
-    "tabulate": "inverse_transform",
-}
-
-__all__ = [*_HOME]
-
-
-def __getattr__(name):
-    """Return a public function from the module that defines it."""
-    if name in _HOME:
-        return getattr(importlib.import_module(f"kacsim.techniques.{_HOME[name]}"), name)
-    raise AttributeError(f"module 'kacsim.techniques' has no attribute '{name}'")
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "injection": ["inject"],
+        "integration": ["integrate", "lattice_count", "sphere_volume"],
+        "inverse_transform": ["draw_by_inversion", "draw_from_table", "tabulate"],
+        "particles": ["inject_particles"],
+        "rejection": ["draw_by_rejection"],
+    },
+)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy import special
 
-from kacsim.checks_techniques import SUPPORT
+from kacsim.techniques.constants import SUPPORT
 
 CUMULATIVES = {
     "kac_initial": lambda v: 0.5 * special.erfc(-v) - v * np.exp(-v * v) / math.sqrt(math.pi),

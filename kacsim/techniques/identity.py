@@ -1,7 +1,7 @@
 """f0 of the Kac paper by the Gamma identity, as the kernels of that paper draw it."""
 
-from kacsim.jit import kernel
 from kacsim.kac.model import initial_velocity
+from kacsim.kernels.jit import kernel
 
 
 @kernel

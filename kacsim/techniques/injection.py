@@ -8,11 +8,13 @@ import math
 
 import numpy as np
 
-from kacsim import checks, checks_techniques
-from kacsim.jit import inlined, kernel
+from kacsim import checks
+from kacsim.kernels.jit import inlined, kernel
+from kacsim.samplers import declared
 from kacsim.streams import new_stream
 from kacsim.variates import exponential, half_normal, random_sign, uniform
 
+REACH = 8.0  # thermal velocities from which particles of the outer gas come
 POISSON_PIECE = 500.0  # exp(-mean) of a larger mean would be lost
 
 
@@ -183,6 +185,27 @@ def move_gas(n_steps, mean, reach, drift, thermal, half_width, step, counts, tal
     return n_kept
 
 
+def gas(temperature, drift, half_width):
+    """Return (drift, thermal velocity, half widths) as the kernels take them."""
+    vectors = [np.array(value, dtype=float) for value in (drift, half_width)]
+    return vectors[0], math.sqrt(temperature), vectors[1]
+
+
+def injection(*, density, temperature, drift, half_width, step):
+    """Return the parameters of `inject_steps`: mean numbers by face, and the `gas`."""
+    from kacsim.techniques import flux  # its special functions are not needed by every kernel
+
+    means = flux.face_rates(density, temperature, drift, half_width) * step
+    return means, *gas(temperature, drift, half_width)
+
+
+def outer_gas(*, density, temperature, drift, half_width, step):
+    """Return the parameters of `move_gas`: mean number, the reach of its piece, the gas, a step."""
+    state = gas(temperature, drift, half_width)
+    reach = state[2] + step * (np.abs(state[0]) + REACH * state[1])
+    return density * float(np.prod(2.0 * reach)), reach, *state, float(step)
+
+
 def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
     """Draw the particles that enter a cuboid from a drifting Maxwellian gas (section 11.3).
 
@@ -199,31 +222,28 @@ def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
     Returns
     -------
     (int64[n], float64[n, 3], float64[n, 3], int64[n]), face in the order of
-    `kacsim.checks_techniques.FACES`, position, velocity, and number of the step
+    `kacsim.techniques.constants.FACES`, position, velocity, and number of the step
 
     Raises
     ------
     ValueError
         Names the argument, its value and what is allowed.
     """
-    from kacsim.techniques import flux
-
     drift, half_width = list(drift), list(half_width)
     state = {"density": density, "temperature": temperature, "drift": drift}
     state |= {"half_width": half_width, "step": step}
-    checks.raise_problems(checks_techniques.injection(**state))
+    checks.raise_problems(declared("injection", state))
     checks.raise_problems(checks.amount(n_draws=1, n_replicates=1, seed=seed))
     checks.raise_problems(checks.count("n_steps", n_steps))
-    means = flux.face_rates(density, temperature, drift, half_width) * step
     stream = new_stream(seed, "techniques.inject")
-    vectors = np.array(drift, dtype=float), math.sqrt(temperature), np.array(half_width, float)
+    arguments = injection(**state)
     steps, rows, room = [], [], 64
     for k in range(n_steps):
         before = stream.copy()
         while True:
             counts, kept = np.zeros((6, 2), np.int64), np.empty((room, 7))
             tallies = np.zeros((6, 8)), np.zeros((6, 1), np.int64), 1.0, kept
-            n = inject_steps(1, means, *vectors, counts, tallies, stream)
+            n = inject_steps(1, *arguments, counts, tallies, stream)
             if n < room:
                 break
             room, stream = 2 * room, before.copy()

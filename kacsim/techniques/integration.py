@@ -5,8 +5,9 @@ import math
 import numpy as np
 from numba import int64, uint64
 
-from kacsim import checks, checks_techniques
-from kacsim.jit import inlined, kernel
+from kacsim import checks
+from kacsim.kernels.jit import inlined, kernel
+from kacsim.samplers import declared
 from kacsim.streams import new_stream, next_bits
 from kacsim.variates import uniform
 
@@ -44,7 +45,7 @@ def count_lattice(inside, edge):
 
 
 @kernel
-def count_random(inside, n_points, dimension, stream):
+def count_good(inside, n_points, dimension, stream):
     """Count random points of the unit cube inside the sphere, noting the count now and then.
 
     Parameters
@@ -76,7 +77,7 @@ def mixed(word):
 
 @kernel
 def count_exhausted(inside, n_points, dimension, stream):
-    """Do as `count_random` with a generator whose `EXHAUSTED` numbers come again and again."""
+    """Do as `count_good` with a generator whose `EXHAUSTED` numbers come again and again."""
     done, hits, counter = 0, 0, 0
     key = next_bits(stream)
     for place in range(n_points.size):
@@ -94,7 +95,7 @@ def count_exhausted(inside, n_points, dimension, stream):
 
 @kernel
 def count_congruential(inside, n_points, dimension, stream):
-    """Do as `count_random` with a generator that takes each of `PERIOD` values once."""
+    """Do as `count_good` with a generator that takes each of `PERIOD` values once."""
     done, hits = 0, 0
     state = int64(uniform(stream) * PERIOD)
     for place in range(n_points.size):
@@ -133,7 +134,7 @@ def sum_area(sums, n_points, exponent, stream):
 
 
 def count_sobol(inside, n_points, dimension, state):
-    """Do as `count_random` with a scrambled Sobol sequence.
+    """Do as `count_good` with a scrambled Sobol sequence.
 
     Parameters
     ----------
@@ -164,7 +165,7 @@ def lattice_count(dimension, edge):
     ValueError
         Names the argument, its value and what is allowed.
     """
-    checks.raise_problems(checks_techniques.sphere_lattice(dimension=[dimension], edge=[edge]))
+    checks.raise_problems(declared("sphere_lattice", {"dimension": [dimension], "edge": [edge]}))
     if edge**dimension >= 2**63:
         raise ValueError(f"edge = {edge!r}: edge**dimension must be below 2**63")
     inside = np.empty(dimension, np.int64)
@@ -191,14 +192,12 @@ def sphere_volume(dimension, n_points, *, seed):
         Names the argument, its value and what is allowed.
     """
     checks.raise_problems(
-        checks_techniques.sphere_points(
-            generator="good", dimension=[dimension], n_points=[n_points]
-        )
+        declared("sphere_points", {"dimension": [dimension], "n_points": [n_points]})
     )
     checks.raise_problems(checks.amount(n_draws=1, n_replicates=1, seed=seed))
     inside = np.empty(1, np.int64)
     stream = new_stream(seed, "techniques.sphere_volume")
-    count_random(inside, np.array([n_points]), dimension, stream)
+    count_good(inside, np.array([n_points]), dimension, stream)
     share = inside[0] / n_points
     return share, math.sqrt(share * (1.0 - share) / n_points)
 

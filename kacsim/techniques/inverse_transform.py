@@ -3,10 +3,10 @@
 import numpy as np
 
 from kacsim import checks
-from kacsim.checks_techniques import CLOSED, LAWS, SUPPORT
-from kacsim.jit import kernel
+from kacsim.kernels.jit import kernel
 from kacsim.streams import new_stream
 from kacsim.techniques import model
+from kacsim.techniques.constants import CLOSED, LAWS, SUPPORT
 from kacsim.techniques.exact import CUMULATIVES
 from kacsim.variates import uniform
 

@@ -2,11 +2,10 @@
 
 import math
 
-from kacsim.checks_techniques import LAWS
-from kacsim.jit import inlined, kernel
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.streams import next_bits
+from kacsim.techniques.constants import EXPONENTIAL, KAC_INITIAL, RAMP
 
-KAC_INITIAL, EXPONENTIAL, RAMP, TRIANGLE = range(len(LAWS))
 TWO_OVER_ROOT_PI = 2.0 / math.sqrt(math.pi)
 ROOT_PI = math.sqrt(math.pi)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from kacsim import checks
-from kacsim.jit import kernel
+from kacsim.kernels.jit import kernel
 from kacsim.streams import new_stream
 from kacsim.variates import half_normal, random_sign, uniform
 

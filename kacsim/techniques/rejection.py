@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 from kacsim import checks
-from kacsim.checks_techniques import LAWS, SUPPORT
-from kacsim.jit import inlined, kernel
+from kacsim.kernels.jit import inlined, kernel
 from kacsim.streams import new_stream
 from kacsim.techniques import model
+from kacsim.techniques.constants import LAWS, SUPPORT
 from kacsim.techniques.exact import CLOSER_TOP, NARROW, TOPS
 from kacsim.variates import uniform
 

@@ -4,11 +4,10 @@ import math
 
 import numpy as np
 
-from kacsim.checks_techniques import FACES, LAWS
+from kacsim.kernels.lookup import named
 from kacsim.store import described
 from kacsim.streams import new_stream
 from kacsim.techniques import (
-    flux,
     identity,
     injection,
     integration,
@@ -17,11 +16,12 @@ from kacsim.techniques import (
     particles,
     rejection,
 )
+from kacsim.techniques.constants import FACES, LAWS
 
 CHUNK = 8192
 CELLS = 10007  # of equal probability; a prime, so that few edges are nodes of a table
 POWERS = (1, 2, 3, 4)
-RECORDED = 600  # trials or particles shown in a figure
+KEPT = 600  # trials or particles shown in a figure
 SPEED_BINS, SPEED_WIDTH = 80, 0.1  # of the normal velocity, in units of the thermal one
 MOST = 40  # particles of a face in one step that have a count of their own
 SUMS = ("number", "speed", "speed_2", "speed_4", "tangent_1", "tangent_2", "product", "squares")
@@ -106,7 +106,7 @@ def sample_rejection(case, progress):
         trials[row] += rejection.draw(values, *arguments, stream)
 
     found = _law_variables(*_draw_law(case, law, fill, progress))
-    points = np.empty((RECORDED, 3))
+    points = np.empty((KEPT, 3))
     rejection.record(points, *arguments, new_stream(case.seed, f"{case.id} record"))
     return found | {
         "trials": described(trials / case.n_draws, ("replicate",), "trials per draw"),
@@ -126,7 +126,7 @@ def _entering(case, progress, run):
     sums = np.zeros((len(case.replicates), len(FACES), len(SUMS)))
     speeds = np.zeros((len(case.replicates), len(FACES), SPEED_BINS), np.int64)
     width = SPEED_WIDTH * math.sqrt(case.parameters["temperature"])
-    kept, n_kept = np.empty((RECORDED, 7)), 0
+    kept, n_kept = np.empty((KEPT, 7)), 0
     for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
         tallies = sums[row], speeds[row], width, kept[n_kept:]
@@ -142,11 +142,6 @@ def _entering(case, progress, run):
     }
 
 
-def _state(p):
-    vectors = [np.array(p[name], dtype=float) for name in ("drift", "half_width")]
-    return vectors[0], math.sqrt(p["temperature"]), vectors[1]
-
-
 def sample_injection(case, progress):
     """Inject through the faces of a cuboid, step by step (Fig. 11.3).
 
@@ -155,24 +150,15 @@ def sample_injection(case, progress):
     dict of steps[replicate, face, number], sum[replicate, face, what], kept[kept, part],
     speeds[replicate, face, bin]
     """
-    p = case.parameters
-    names = ("density", "temperature", "drift", "half_width")
-    means = flux.face_rates(*(p[name] for name in names)) * p["step"]
-    run = lambda n, *sums: injection.inject_steps(n, means, *_state(p), *sums)  # noqa: E731
+    arguments = injection.injection(**case.parameters)
+    run = lambda n, *sums: injection.inject_steps(n, *arguments, *sums)  # noqa: E731
     return _entering(case, progress, run)
 
 
 def sample_outer_gas(case, progress):
     """Move pieces of the outer gas and look at what enters; as `sample_injection`."""
-    p = case.parameters
-    drift, thermal, half_width = _state(p)
-    reach = half_width + p["step"] * (np.abs(drift) + 8.0 * thermal)
-    mean = p["density"] * float(np.prod(2.0 * reach))
-
-    def run(n, *sums):
-        state = drift, thermal, half_width, float(p["step"])
-        return injection.move_gas(n, mean, reach, *state, *sums)
-
+    arguments = injection.outer_gas(**case.parameters)
+    run = lambda n, *sums: injection.move_gas(n, *arguments, *sums)  # noqa: E731
     return _entering(case, progress, run)
 
 
@@ -227,11 +213,7 @@ def sample_sphere_points(case, progress):
     p = case.parameters
     n_points = np.array(p["n_points"], dtype=np.int64)
     inside = np.empty((len(p["dimension"]), len(case.replicates), n_points.size), np.int64)
-    count = {
-        "good": integration.count_random,
-        "exhausted": integration.count_exhausted,
-        "congruential": integration.count_congruential,
-    }.get(p["generator"], integration.count_sobol)
+    count = named("kacsim.techniques", "integration", f"count_{p['generator']}")
     for k, dimension in enumerate(p["dimension"]):
         for row, replicate in enumerate(case.replicates):
             stream = new_stream(case.seed, f"{case.id} dimension {dimension}", replicate)
@@ -259,17 +241,3 @@ def sample_area(case, progress):
         "estimate": described(2.0 * sums / n_points, ("way", "replicate", "points"), "area"),
         "points": described(n_points, ("points",), "number of points"),
     }
-
-
-SAMPLERS = {
-    "inverse_transform": sample_inverse_transform,
-    "inversion": sample_inversion,
-    "rejection": sample_rejection,
-    "identity": sample_identity,
-    "injection": sample_injection,
-    "outer_gas": sample_outer_gas,
-    "weighted_particles": sample_weighted_particles,
-    "sphere_lattice": sample_sphere_lattice,
-    "sphere_points": sample_sphere_points,
-    "area": sample_area,
-}

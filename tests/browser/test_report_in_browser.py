@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 from page_checks import PAPER_WIDTH, Visit
 
-from kacsim import browser, printing, report
+from kacsim.report import browser, printing
+from kacsim.report import page as report
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]

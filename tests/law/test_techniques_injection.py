@@ -8,12 +8,12 @@ import math
 
 import numpy as np
 import pytest
+from kacsim.checks_techniques import FACES
 from law import compare
 
 from kacsim import techniques
 from kacsim.cases import make_case
-from kacsim.checks_techniques import FACES
-from kacsim.sampling import run
+from kacsim.jobs.sampling import run
 from kacsim.techniques import flux, particles
 
 BOX, TEMPERATURE, STEP = [1.1, 1.7, 0.6], 1.7, 0.2

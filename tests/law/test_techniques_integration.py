@@ -11,7 +11,7 @@ from law import compare
 
 from kacsim import techniques
 from kacsim.cases import make_case
-from kacsim.sampling import run
+from kacsim.jobs.sampling import run
 from kacsim.streams import new_stream
 from kacsim.techniques import exact, integration
 

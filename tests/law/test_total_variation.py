@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from law import compare
 
-from kacsim import kac, sampling
+from kacsim import kac
 from kacsim.cases import make_case
+from kacsim.jobs import sampling
 from kacsim.statistics import histogram
 
 WIDTHS = (0.05, 0.1, 0.5)

@@ -5,9 +5,9 @@ import shlex
 import pytest
 
 from kacsim import cli, plan, store
-from kacsim.batches import make_batches
 from kacsim.cases import make_case
-from kacsim.provenance import ROOT
+from kacsim.jobs.batches import make_batches
+from kacsim.kernels.provenance import ROOT
 
 SECONDS = 30.0
 

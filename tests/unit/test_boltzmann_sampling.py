@@ -8,7 +8,6 @@ import math
 import numpy as np
 import pytest
 
-from kacsim import sampling
 from kacsim.boltzmann import (
     bkw_tree,
     estimators,
@@ -20,6 +19,7 @@ from kacsim.boltzmann import (
 )
 from kacsim.boltzmann import sampling as streaming
 from kacsim.cases import make_case
+from kacsim.jobs import sampling
 from kacsim.streams import new_stream
 
 SIZE = {"n_draws": 150, "n_replicates": 3, "seed": 5}

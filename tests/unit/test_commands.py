@@ -7,12 +7,15 @@ import subprocess
 
 import netCDF4
 import pytest
-
-from kacsim import boltzmann, cli, estimating, kac, plan, sampling, store, verify
-from kacsim.cases import make_case
+from kacsim.jobs.progress import Progress
 from kacsim.meanings import DRAWS, MEANINGS
-from kacsim.progress import Progress
-from kacsim.provenance import ROOT
+
+from kacsim import boltzmann, cli, kac, plan, store
+from kacsim.cases import make_case
+from kacsim.commands import estimate as estimating
+from kacsim.commands import verify
+from kacsim.jobs import sampling
+from kacsim.kernels.provenance import ROOT
 from kacsim.samplers import SAMPLERS
 
 CONFIG = ROOT / "config" / "config.yaml"

@@ -5,7 +5,7 @@ import logging
 import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from kacsim import console
+from kacsim.jobs import console
 
 
 @pytest.fixture

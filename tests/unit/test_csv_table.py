@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from kacsim import csv_table, store
+from kacsim import store
+from kacsim.report import csv_table
 
 xr = pytest.importorskip("xarray")
 

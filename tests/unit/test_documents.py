@@ -6,7 +6,7 @@ import re
 import yaml
 
 from kacsim import items
-from kacsim.provenance import ROOT
+from kacsim.kernels.provenance import ROOT
 
 
 def text(name):

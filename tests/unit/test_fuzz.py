@@ -13,8 +13,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from kacsim import cli, plan, sampling, store
-from kacsim.provenance import ROOT
+from kacsim import cli, plan, store
+from kacsim.jobs import sampling
+from kacsim.kernels.provenance import ROOT
 
 FILES = [str(ROOT / "config" / name) for name in ("config.yaml", "smoke.yaml")]
 TRIES = int(os.environ.get("KACSIM_FUZZ", "200"))

@@ -4,7 +4,9 @@ import json
 
 import pytest
 
-from kacsim import cli, jit, kept, plan, provenance, store
+from kacsim import cli, plan, store
+from kacsim.kernels import jit, provenance
+from kacsim.report import kept
 
 HTML = '<a href="../datasets/kac_fig4.nc">dataset</a> <a href="#here">here</a>'
 

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from kacsim.provenance import ROOT
+from kacsim.kernels.provenance import ROOT
 
 DRAW = """
 import numpy as np

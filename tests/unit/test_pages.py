@@ -4,7 +4,9 @@ import os
 
 import pytest
 
-from kacsim import browser, cli, plan, printing, store, times
+from kacsim import cli, plan, store
+from kacsim.jobs import times
+from kacsim.report import browser, printing
 
 FAKE = """#!/bin/sh
 for word; do case $word in --print-to-pdf=*) pdf=${word#*=};; esac; done

@@ -8,9 +8,10 @@ import shlex
 import pytest
 import yaml
 
-from kacsim import cli, items, plan, sampling, schema, store
+from kacsim import cli, items, plan, schema, store
 from kacsim.cases import Case, make_case
-from kacsim.provenance import ROOT
+from kacsim.jobs import sampling
+from kacsim.kernels.provenance import ROOT
 
 CONFIG = ROOT / "config" / "config.yaml"
 SMOKE = ROOT / "config" / "smoke.yaml"

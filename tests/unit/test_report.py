@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import yaml
 
-from kacsim import report, store
+from kacsim import store
+from kacsim.report import page as report
 
 SVG = """<?xml version="1.0" encoding="utf-8" standalone="no"?>
 <!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">

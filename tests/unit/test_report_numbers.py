@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kacsim import report_numbers
+from kacsim.report import numbers as report_numbers
 
 
 @pytest.mark.parametrize(

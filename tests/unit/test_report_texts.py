@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import yaml
 
-from kacsim import items, report
+from kacsim import items
+from kacsim.report import page as report
 
 CAPTIONS, ERRATA, TEMPLATE, RUNTIME = (
     (report.TEXTS / name).read_text(encoding="utf-8")

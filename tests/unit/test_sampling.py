@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pytest
 
-from kacsim import sampling
 from kacsim.cases import make_case
+from kacsim.jobs import sampling
 from kacsim.kac import draws, perfect
 from kacsim.kac import sampling as kac_sampling
 from kacsim.statistics import histogram

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from kacsim import cli, plan, sampling, shards, store
+from kacsim import cli, plan, store
 from kacsim.boltzmann import sampling as boltzmann_sampling
 from kacsim.cases import make_case
+from kacsim.jobs import sampling, shards
 from kacsim.kac import sampling as kac_sampling
-from kacsim.provenance import ROOT
+from kacsim.kernels.provenance import ROOT
 from kacsim.samplers import LISTS, SAMPLERS, UNSHARDED
 from kacsim.techniques import sampling as techniques_sampling
 

@@ -11,7 +11,7 @@ import pytest
 from scipy import special
 
 from kacsim import cli, techniques
-from kacsim.provenance import ROOT
+from kacsim.kernels.provenance import ROOT
 
 SIZE = {"n_draws": 50, "seed": 1}
 VELOCITIES = [[1.0, 0.2, 0.0], [-0.5, 1.0, 0.3], [0.4, -0.7, 2.0]]

@@ -7,10 +7,11 @@ import math
 
 import numpy as np
 import pytest
-
-from kacsim import jit, sampling
-from kacsim.cases import make_case
 from kacsim.checks_techniques import SUPPORT
+
+from kacsim.cases import make_case
+from kacsim.jobs import sampling
+from kacsim.kernels import jit
 from kacsim.statistics import slope
 from kacsim.streams import new_stream, next_bits
 from kacsim.techniques import (

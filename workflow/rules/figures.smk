@@ -23,7 +23,7 @@ rule draw:
         mem_mb=600,
         runtime=10,
     params:
-        code=lambda wildcards: source_hash(*plan.draw_sources(wildcards.item)),
+        code=lambda wildcards: stages.code(stages.draw_roots(wildcards.item)),
     message:
         "Drawing {wildcards.item}"
     shell:

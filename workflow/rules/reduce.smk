@@ -20,7 +20,10 @@ rule reduce:
         runtime=10,
     params:
         settings=lambda wildcards: the_plan.settings_json(wildcards.item),
-        code=lambda wildcards: source_hash(*plan.reduce_sources(wildcards.item)),
+        values=lambda wildcards: stages.reduce_values(
+            wildcards.item, the_plan.cases_of[wildcards.item]
+        ),
+        code=lambda wildcards: stages.code(stages.reduce_roots(wildcards.item)),
     message:
         "Reducing {wildcards.item}"
     shell:

@@ -33,7 +33,7 @@ rule report:
     params:
         wanted=items.NAMES,
         options=OPTIONS,
-        code=source_hash("report.py", "report_numbers.py", "store.py"),
+        code=stages.code(stages.page_roots("page")),
     message:
         "Writing the report"
     shell:
@@ -57,7 +57,7 @@ rule print_report:
         mem_mb=1500,
         runtime=10,
     params:
-        code=source_hash("printing.py"),
+        code=stages.code(stages.page_roots("printing")),
     message:
         "Printing the report"
     shell:
@@ -79,7 +79,7 @@ rule run_times:
         mem_mb=300,
         runtime=10,
     params:
-        code=source_hash("times.py"),
+        code=stages.code(stages.page_roots("runtime")),
     message:
         "Writing the page of run times"
     shell:

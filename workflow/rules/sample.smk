@@ -1,28 +1,27 @@
 # Stage 1: cases become samples.
-import re
 
 
 rule compile:
-    """Compile the kernels of one module once, before parallel jobs would each compile them."""
+    """Compile the kernels of one sampler once, before parallel jobs would each compile them."""
     output:
-        "results/kernels/{kernels}.txt",
+        "results/kernels/{unit}.txt",
     log:
-        "logs/compile/{kernels}.log",
+        "logs/compile/{unit}.log",
     benchmark:
-        "benchmarks/compile/{kernels}.tsv"
+        "benchmarks/compile/{unit}.tsv"
     priority: 1000
     threads: 1
     resources:
         mem_mb=800,
         runtime=10,
     params:
-        code=lambda wildcards: source_hash(
-            *cases.compile_sources(f"{wildcards.kernels}.py")
+        code=lambda wildcards: stages.code(
+            stages.sample_roots(the_plan.units[wildcards.unit])
         ),
     message:
-        "Compiling the kernels of {wildcards.kernels}"
+        "Compiling the kernels of {wildcards.unit}"
     shell:
-        "kacsim compile {wildcards.kernels}.py --output {output} > {log} 2>&1"
+        "kacsim compile {wildcards.unit} --output {output} > {log} 2>&1"
 
 
 # Short cases share a job; its outputs have no common wildcard, so each batch is a rule.
@@ -48,7 +47,8 @@ for batch in the_plan.batches:
             runtime=batch.minutes(),
         params:
             recipe=batch.arguments(),
-            code=source_hash(*batch.cases[0].sources()),
+            values=batch.recipes(),
+            code=stages.code(stages.sample_roots(batch.cases[0])),
         message:
             f"Sampling {batch.description()}"
         shell:
@@ -78,7 +78,10 @@ rule shard:
         runtime=lambda wildcards: the_plan.shard(wildcards).minutes(),
     params:
         recipe=lambda wildcards: the_plan.shard(wildcards).arguments(),
-        code=lambda wildcards: source_hash(*the_plan.shard(wildcards).sources()),
+        values=lambda wildcards: the_plan.shard(wildcards).recipe(),
+        code=lambda wildcards: stages.code(
+            stages.sample_roots(the_plan.shard(wildcards))
+        ),
     message:
         "Sampling {wildcards.case}, shard {wildcards.number} of {wildcards.total}"
     shell:
@@ -103,9 +106,10 @@ rule merge:
         runtime=10,
     params:
         recipe=lambda wildcards: the_plan.cases[wildcards.case].arguments(),
+        values=lambda wildcards: the_plan.cases[wildcards.case].recipe(),
         number=lambda wildcards: len(the_plan.shards[wildcards.case]),
-        code=lambda wildcards: source_hash(
-            "shards.py", *the_plan.cases[wildcards.case].sources()
+        code=lambda wildcards: stages.code(
+            stages.merge_roots(the_plan.cases[wildcards.case])
         ),
     message:
         "Merging {wildcards.case}"

@@ -1,0 +1,122 @@
+"""The public estimators of the BKW mode and of extinction: checked arguments, physical units."""
+
+import numpy as np
+
+from kacsim import checks
+from kacsim.boltzmann import bkw, bkw_tree, null_collisions
+from kacsim.boltzmann.constants import MAX_NODES
+from kacsim.boltzmann.estimators import estimate_from, sizes, vector_of
+from kacsim.samplers import declared
+
+
+def estimate_bkw(
+    velocity,
+    time,
+    *,
+    n_realizations,
+    seed,
+    rms_velocity=1.0,
+    oversampling=1.0,
+    onset=0.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate f(c; t) of the BKW mode by Algorithm 2 (Boltzmann paper, section II).
+
+    Parameters
+    ----------
+    velocity : float (a speed) or float64[3], in the unit of rms_velocity
+    time : float >= 0, in mean collision times
+    n_realizations : int >= 2
+    seed : int >= 0
+    rms_velocity : float > 0, c_q, per axis
+    oversampling : float >= 1, mean number of sub-estimates that replace each one; 1 as published
+    onset : float >= 0, collisions before this time are not oversampled
+    max_nodes : int, budget of one tree
+
+    Returns
+    -------
+    Estimate, per unit of velocity cubed
+
+    Raises
+    ------
+    ValueError
+        Names the argument, its value and what is allowed.
+    BudgetError
+        If a tree exceeds max_nodes.
+    """
+    tree = {"oversampling": oversampling, "onset": onset, "max_nodes": max_nodes}
+    speed = float(np.linalg.norm(vector_of("velocity", velocity)))
+    checks.raise_problems(
+        checks.not_negative("time", time),
+        checks.positive("rms_velocity", rms_velocity),
+        declared("bkw", tree),
+        sizes(n_realizations, seed),
+    )
+
+    draw = bkw_tree.bkw(speed / rms_velocity, time, **tree)
+    factor = float(bkw.maxwellian(speed, rms_velocity))
+    return estimate_from(draw, factor, n_realizations, seed, "boltzmann.estimate_bkw")
+
+
+def estimate_bkw_fraction(
+    threshold,
+    time,
+    *,
+    n_realizations,
+    seed,
+    rms_velocity=1.0,
+    oversampling=1.0,
+    onset=0.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate the fraction of particles with |c| > threshold by Algorithm 3 and eq. (19).
+
+    Parameters, result and errors as `estimate_bkw`, with threshold >= 0 in place of velocity.
+    """
+    tree = {"oversampling": oversampling, "onset": onset, "max_nodes": max_nodes}
+    checks.raise_problems(
+        checks.not_negative("threshold", threshold),
+        checks.not_negative("time", time),
+        checks.positive("rms_velocity", rms_velocity),
+        declared("bkw", tree),
+        sizes(n_realizations, seed),
+    )
+
+    draw = bkw_tree.bkw_fraction(threshold / rms_velocity, time, **tree)
+    return estimate_from(draw, 1.0, n_realizations, seed, "boltzmann.estimate_bkw_fraction")
+
+
+def estimate_extinction(
+    time, *, n_realizations, seed, rate, initial, majorant, max_nodes=MAX_NODES
+):
+    """Estimate f(t) of f' = -rate f**2, f(0) = initial, by Algorithm 4 (section III).
+
+    Parameters
+    ----------
+    time : float >= 0
+    n_realizations, seed, max_nodes : as `estimate_bkw`
+    rate, initial : float > 0, alpha and f0
+    majorant : float > 0, the raised frequency; the variance is finite for all times from
+        rate * initial on
+
+    Returns
+    -------
+    Estimate, in the unit of initial
+
+    Raises
+    ------
+    ValueError, BudgetError
+        As `estimate_bkw`.
+    """
+    checks.raise_problems(
+        checks.not_negative("time", time),
+        checks.positive("rate", rate),
+        checks.positive("initial", initial),
+        checks.positive("majorant", majorant),
+        declared("extinction", {"max_nodes": max_nodes}),
+        sizes(n_realizations, seed),
+    )
+    scale = rate * initial
+
+    draw = null_collisions.extinction(majorant / scale, scale * time, max_nodes=max_nodes)
+    return estimate_from(draw, initial, n_realizations, seed, "boltzmann.estimate_extinction")

@@ -1,0 +1,5 @@
+"""Numbers of the Boltzmann paper that several modules use."""
+
+MAX_NODES = 10_000_000  # budget of one tree
+BREATHING = 9.0 / 41.0  # eps of section V
+COUPLING = 3.0  # n kappa omega**2 / c_eq**3 of section V

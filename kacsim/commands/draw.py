@@ -1,0 +1,32 @@
+"""Draw the figure of one item from its dataset."""
+
+from kacsim.commands import _shared
+
+EXAMPLE = "draw kac_fig4 --dataset results/datasets/kac_fig4.nc --output fig4.png"
+OF_A_CLONE = True
+
+
+def add(parser):
+    """Add the options."""
+    parser.add_argument("item")
+    parser.add_argument("--dataset", required=True)
+    parser.add_argument("--output", required=True, nargs="+", help="svg, png, pdf, csv; sha256")
+
+
+def run(arguments):
+    """Draw the figure of an item, and write the numbers behind it."""
+    module = _shared.known_item(arguments.item)
+    from kacsim import files, plotting, store
+    from kacsim.report import csv_table
+
+    dataset = store.read_dataset(arguments.dataset, arguments.item)
+    figure = module.draw(dataset)
+    sums = [path for path in arguments.output if path.endswith(".sha256")]
+    drawn = [path for path in arguments.output if path not in sums]
+    for path in drawn:
+        if path.endswith(".csv"):
+            csv_table.write(dataset, path)
+        else:
+            plotting.save(figure, path)
+    for path in sums:
+        files.write_sums(drawn, path)

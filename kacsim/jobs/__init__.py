@@ -1,0 +1,1 @@
+"""How cases become jobs: batches, shards, and what a run of the workflow shows."""

@@ -1,0 +1,47 @@
+"""What the jobs of each stage depend on: the roots of their code, and values beside their files."""
+
+import json
+
+from kacsim import items
+from kacsim.kernels import sources
+
+WRITERS = (("kacsim.plotting", "save"), ("kacsim.report.csv_table", "write"))
+
+
+def sample_roots(case):
+    """Return (module, name) of what draws a case."""
+    return case.roots
+
+
+def merge_roots(case):
+    """Return (module, name) of what draws a case and joins its shards."""
+    return *case.roots, ("kacsim.jobs.shards", "merged")
+
+
+def reduce_roots(name):
+    """Return (module, name) of what makes the dataset of an item."""
+    own = ("kacsim.items", "reduced"), (f"kacsim.items.{name}", "reduce")
+    stages = ("reduce", "claims")
+    return *own, *((f"kacsim.items.{one}", stage) for one in items.uses(name) for stage in stages)
+
+
+def draw_roots(name):
+    """Return (module, name) of what draws the figure of an item and writes its numbers."""
+    return (f"kacsim.items.{name}", "draw"), *WRITERS
+
+
+def page_roots(module):
+    """Return (module, name) of what writes the report, its print or the page of run times."""
+    return ((f"kacsim.report.{module}", "write"),)
+
+
+def code(roots):
+    """Return the hash of everything that some roots reach."""
+    return sources.code(roots)
+
+
+def reduce_values(name, cases):
+    """Return what the dataset depends on beside settings and samples: recipes, published texts."""
+    names = (name, *items.uses(name))
+    shown = {key: entry for key, entry in items.published().items() if items.shows(entry, names)}
+    return json.dumps([[case.recipe() for case in cases], shown], sort_keys=True, default=str)

@@ -1,0 +1,153 @@
+"""Nanbu's algorithm, sequential: updated in place for i = 1..N (Kac paper, 4.1)."""
+
+import numpy as np
+from numba import int64
+
+from kacsim.kac.model import (
+    copy_state,
+    deflect,
+    growing,
+    initial_energy,
+    initial_velocity,
+    signed_root,
+)
+from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
+from kacsim.kac.nanbu import arguments, leave_step, partner_of
+from kacsim.kernels.jit import inlined, kernel
+from kacsim.variates import failures_before_success, gap_scale, squared_cosine
+
+__all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
+
+
+@kernel
+def forward(velocities, own, n_particles, steps, probability, stream):
+    """Draw v_1(t) from whole ensembles, updated in place for i = 1..N.
+
+    Parameters
+    ----------
+    velocities : float64[n], overwritten by independent draws of v_1
+    own : int64[n], overwritten by the number of velocity changes of particle 1
+    n_particles, steps, probability : from `arguments`
+    stream : uint64[4], advanced
+
+    Returns
+    -------
+    int, collisions simulated
+    """
+    v = np.empty(n_particles)
+    scale = gap_scale(probability)
+    simulated = 0
+    for draw in range(velocities.size):
+        for i in range(n_particles):
+            v[i] = initial_velocity(stream)
+        touched = 0
+        trial = int64(failures_before_success(scale, stream))
+        while trial < n_particles * steps:
+            i = trial % n_particles
+            v[i] = deflect(v[i], v[partner_of(i, n_particles, stream)], stream)
+            touched += i == 0
+            simulated += 1
+            trial += 1 + int64(failures_before_success(scale, stream))
+        velocities[draw] = v[0]
+        own[draw] = touched
+    return simulated
+
+
+@inlined
+def place_of(label, labels, members):
+    """Return the first place in the descending labels whose label is at most the given one."""
+    place = 0
+    while place < members and labels[place] > label:
+        place += 1
+    return place
+
+
+@inlined
+def insert(array, place, length, value):
+    """Insert the value at the place of an array that holds `length` values."""
+    for k in range(length, place, -1):
+        array[k] = array[k - 1]
+    array[place] = value
+
+
+@growing
+@kernel
+def ancestral(velocities, own, n_particles, steps, probability, stream, first, second, energy):
+    """Draw v_1(t) from the ancestors only; same law and parameters as `forward`.
+
+    A step backward visits the ancestors from the highest label to the lowest. A new ancestor of
+    lower label is visited later in the same step, one of higher label was read before its turn.
+    """
+    scale = gap_scale(probability)
+    labels, slots = np.empty(n_particles, np.int64), np.empty(n_particles, np.int64)
+    start = stream.copy()
+    simulated = 0
+    for draw in range(velocities.size):
+        copy_state(stream, start)
+        labels[0], slots[0] = 0, 0
+        n, members, touched, left, place = 0, 1, 0, steps, 0
+        gap = int64(failures_before_success(scale, stream))
+        while True:
+            if gap >= members - place:
+                left, gap = leave_step(left, gap - (members - place), members)
+                place = 0
+                if left <= 0:
+                    break
+            if n == first.size:
+                copy_state(start, stream)
+                return draw, simulated
+            place += gap
+            i, slot = labels[place], slots[place]
+            j = partner_of(i, n_particles, stream)
+            found = place_of(j, labels, members)
+            if found == members or labels[found] != j:
+                insert(labels, found, members, j)
+                insert(slots, found, members, members)
+                members += 1
+                place += int64(found <= place)
+            first[n], second[n] = slot, slots[found]
+            touched += int64(i == 0)
+            n += 1
+            place += 1
+            gap = int64(failures_before_success(scale, stream))
+        velocities[draw] = signed_root(
+            replay_in_place(energy, members, first, second, n, stream), stream
+        )
+        own[draw] = touched
+        simulated += n
+    return velocities.size, simulated
+
+
+@inlined
+def replay_in_place(energy, n_ancestors, first, second, n_events, stream):
+    """Draw the ancestors' energies and replay their collisions in order; return that of v_1."""
+    for i in range(n_ancestors):
+        energy[i] = initial_energy(stream)
+    for event in range(n_events - 1, -1, -1):
+        total = energy[first[event]] + energy[second[event]]
+        energy[first[event]] = total * squared_cosine(stream)
+    return energy[0]
+
+
+def fourth_moment(*, n_particles, time, time_step, collision_rate):
+    """Return E v_1**4 when particles 1..N are updated in place, O(N**2) per step."""
+    n, steps, p = arguments(
+        n_particles=n_particles, time=time, time_step=time_step, collision_rate=collision_rate
+    )
+    other = 1.0 / (n - 1.0)
+    moments = np.full((n, n), INITIAL_PRODUCT)
+    np.fill_diagonal(moments, INITIAL_SQUARE)
+    sums = moments.sum(axis=0)
+    trace = moments.trace()
+    for _ in range(steps):
+        for i in range(n):
+            row, square = moments[i].copy(), moments[i, i]
+            mixed = 0.5 * (row + other * (sums - row))
+            new = (1.0 - p) * row + p * mixed
+            partners = other * (trace - square + 2.0 * (sums[i] - square))
+            new[i] = (1.0 - p) * square + 3.0 / 8.0 * p * (square + partners)
+            moments[i], moments[:, i] = new, new
+            sums += new - row
+            sums[i] = new.sum()
+            trace += new[i] - square
+    return float(moments[0, 0])

@@ -1,0 +1,219 @@
+"""The samplers of the Kac paper, declared: algorithms, parameters, checks and costs."""
+
+import functools
+import math
+
+from kacsim.boltzmann.samplers import TREE, grid, tree_cost
+from kacsim.checks import Problem, count, finite, not_negative, one_of, positive
+from kacsim.kac.constants import MEAN_ENERGY, RATE, n_steps
+from kacsim.samplers import Parameter, Sampler, Variant, real, whole, whole_or_infinite
+
+OUTSIDE = "a case carries every value that its declaration sets"
+
+ENGINES = ("ancestral", "forward")
+RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
+LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
+LARGEST_LABELLED, LARGEST_ENSEMBLE = 10**8, 10**15
+
+
+def labelled_ancestors(*, n_particles, **_):
+    """Yield the problem of ancestors that are told apart by labels: arrays of N."""
+    if n_particles > LARGEST_LABELLED:
+        sentence = f"must be at most {LARGEST_LABELLED} where ancestors have labels"
+        yield Problem("n_particles", n_particles, sentence)
+
+
+def step_problems(algorithm, time, time_step, collision_rate):
+    """Yield the problems of a time step, which must divide the time."""
+    if n_steps(time, time_step) is None:
+        yield Problem("time_step", time_step, f"must divide time = {time!r} evenly")
+    if collision_rate * time_step > 1:
+        product = f"({collision_rate:.4g} * {time_step!r} = {collision_rate * time_step:.4g})"
+        sentence = f"{algorithm} needs collision_rate * time_step <= 1 {product}"
+        yield Problem("time_step", time_step, sentence)
+
+
+def nanbu(*, n_particles, time, time_step, collision_rate, **_):
+    """Yield the problems of Nanbu's algorithm."""
+    yield from labelled_ancestors(n_particles=n_particles)
+    yield from step_problems("Nanbu", time, time_step, collision_rate)
+
+
+def nanbu_babovsky(*, n_particles, time, time_step, collision_rate, **_):
+    """Yield the problems of Nanbu and Babovsky's algorithm: enough particles for its pairs."""
+    yield from labelled_ancestors(n_particles=n_particles)
+    found = list(step_problems("Nanbu-Babovsky", time, time_step, collision_rate))
+    yield from found
+    pairs = math.ceil(collision_rate * n_particles * time_step / 2)
+    if not found and 2 * pairs > n_particles:
+        sentence = f"{pairs} disjoint pairs may be needed of {n_particles} particles"
+        yield Problem("time_step", time_step, f"{sentence}; at most n_particles / 2 exist")
+
+
+STEP = Parameter(
+    "time_step", "dt", "time step of the algorithms of Nanbu and of Nanbu and Babovsky", positive,
+    kind=real,
+)  # fmt: skip
+# The algorithms: each is the module of its name. Its parameters stand after the time in ids.
+VARIANTS = (
+    Variant("nanbu_sequential", "Nanbu (sequential)", (STEP,), nanbu, {"time_step": 0.5}),
+    Variant("nanbu_synchronous", "Nanbu (synchronous)", (STEP,), nanbu, {"time_step": 0.5}),
+    Variant("nanbu_babovsky", "Nanbu–Babovsky", (STEP,), nanbu_babovsky, {"time_step": 0.5}),
+    Variant("bird", "Bird"),
+    Variant("poisson", "Poisson (exact)"),
+    Variant("poisson_printed", "Poisson (printed rate)"),
+)
+ALGORITHMS = tuple(algorithm.name for algorithm in VARIANTS)
+TITLES = {algorithm.name: algorithm.title for algorithm in VARIANTS}
+STEPPED = tuple(algorithm.name for algorithm in VARIANTS if STEP in algorithm.parameters)
+
+
+def number_of_particles(name, value):
+    """Yield a problem unless the value is an integer from 2 on, or infinite."""
+    if value != math.inf:
+        yield from count(name, value, least=2)
+
+
+def kac(*, algorithm, engine, n_particles, time, collision_rate, **_):
+    """Yield the problems of a draw of v_1 at time t (Kac paper, section 4)."""
+    if n_particles == math.inf:
+        if algorithm != "poisson" or engine != "ancestral":
+            yield Problem("n_particles", n_particles, "infinity needs ancestral poisson")
+            return
+    else:
+        most = LARGEST_LABELLED if engine == "forward" else LARGEST_ENSEMBLE
+        if n_particles > most:
+            sentence = f"must be at most {most} for {engine} {algorithm}"
+            yield Problem("n_particles", n_particles, sentence)
+    followed = min(n_particles, math.exp(min(700.0, collision_rate * time)))
+    if engine == "ancestral" and followed > LARGEST_ANCESTRY:
+        yield Problem(
+            "time",
+            time,
+            f"must be earlier: about {followed:.0e} ancestors, more than {LARGEST_ANCESTRY:.0e}",
+        )
+
+
+def moment(algorithm, time, n_particles, collision_rate, **more):
+    """Yield the problems of an exact fourth moment."""
+    found = [
+        *one_of("algorithm", algorithm, ALGORITHMS),
+        *positive("collision_rate", collision_rate),
+    ]
+    found += number_of_particles("n_particles", n_particles)
+    if time != math.inf:
+        found += not_negative("time", time)
+    elif algorithm != "poisson":
+        found.append(Problem("time", time, "infinity needs poisson"))
+    yield from found
+    if found or n_particles == math.inf or time in (0, math.inf):
+        return
+    variant = next(variant for variant in VARIANTS if variant.name == algorithm)
+    wrong = [p for one in variant.parameters for p in one.problems(more.get(one.name))]
+    yield from wrong
+    if variant.check and not wrong:
+        common = {"n_particles": n_particles, "time": time, "collision_rate": collision_rate}
+        yield from variant.check(**common, **more)
+
+
+def kac_equilibrium(*, n_particles, tolerance, energy=None):
+    """Yield the problems of an epsilon-perfect draw (Kac paper, section 5)."""
+    radius = math.sqrt(MEAN_ENERGY * n_particles if energy is None else energy)
+    least = RELATIVE_TOLERANCE * radius
+    if tolerance < least:
+        sentence = f"double precision resolves distances of at least {least:.1e} on this sphere"
+        yield Problem("tolerance", tolerance, sentence)
+
+
+def coupling_cost(parameters):
+    """Return the work of one epsilon-perfect draw: N steps of cost N for each digit."""
+    digits = max(1.0, -math.log10(parameters["tolerance"]))
+    return 0.4 * parameters["n_particles"] ** 2 * digits
+
+
+def kac_cost(parameters):
+    """Return the work of one draw of v_1."""
+    return parameters["n_particles"] if parameters["engine"] == "forward" else 6.0
+
+
+TIME = Parameter("time", "t", "time t of the Kac paper", positive, kind=real)
+COLLISION_RATE = Parameter(
+    "collision_rate", "rate", "collisions of one particle per time, sqrt(pi)/2 in the paper",
+    positive, RATE, kind=real,
+)  # fmt: skip
+N_PARTICLES = Parameter(
+    "n_particles", "n", "number of particles", functools.partial(count, least=2), kind=whole
+)
+TOLERANCE = Parameter("tolerance", "eps", "epsilon of the perfect sampler", positive, kind=real)
+KAC = Sampler(
+    "kac",
+    "v_1 at a time, by one algorithm of the Kac paper",
+    (
+        Parameter(
+            "algorithm", "", ", ".join(ALGORITHMS),
+            functools.partial(one_of, allowed=ALGORITHMS), shown=True,
+        ),
+        Parameter(
+            "engine", "", "ancestral (default) or forward",
+            functools.partial(one_of, allowed=ENGINES), "ancestral", shown=True,
+        ),
+        Parameter(
+            "n_particles", "n", "number of particles; inf for the ancestral poisson",
+            number_of_particles, kind=whole_or_infinite,
+        ),
+        TIME,
+        COLLISION_RATE,
+        Parameter(
+            "keep_above", "above", "keep the first values of v_1 above this", finite, None,
+            kind=real,
+        ),
+    ),
+    variants=VARIANTS,
+    variant_place=4,
+    engines=ENGINES,
+    entries=lambda parameters: ("arguments", parameters["engine"]),
+    check=kac,
+    cost=kac_cost,
+    tiny=({"n_particles": 4, "time": 1.0},),
+)  # fmt: skip
+EQUILIBRIUM = Sampler(
+    "kac_equilibrium",
+    "v_1 at equilibrium, epsilon-perfect, with coupling times",
+    (
+        N_PARTICLES,
+        TOLERANCE,
+        Parameter(
+            "energy", "e", "energy of all particles, 3 N / 2 by default", positive, None,
+            kind=real,
+        ),
+    ),
+    kernels="perfect",
+    check=kac_equilibrium,
+    cost=coupling_cost,
+    tiny=({"n_particles": 3, "tolerance": 0.1},),
+)  # fmt: skip
+CORNERS = Sampler(
+    "kac_corners",
+    "the distances of the corners before they meet",
+    (N_PARTICLES, TOLERANCE),
+    kernels="perfect",
+    check=kac_equilibrium,
+    cost=coupling_cost,
+    by_replicate=False,
+    tiny=({"n_particles": 3, "tolerance": 0.1},),
+)
+PROBE = Sampler(
+    "kac_probe",
+    "estimates of f(v, t) of the Kac equation",
+    (
+        grid("speed", "v", "speeds of the probes |v|, in the unit of the paper"),
+        grid("time", "t", "times t of the Kac paper"),
+        COLLISION_RATE,
+        *TREE,
+    ),
+    kernels="probe_tree",
+    entries=lambda parameters: ("kac_probe",),
+    cost=functools.partial(tree_cost, axis="speed"),
+    tiny=({"speed": [1.0], "time": [1.0]},),
+)
+SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, PROBE)

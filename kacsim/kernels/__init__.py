@@ -1,0 +1,1 @@
+"""Compiling: decorators, the cache of compiled kernels, and what a result depends on."""

@@ -1,0 +1,229 @@
+"""Measure the kernels, as ratios in one run.
+
+One thread, medians of several repeats.
+
+The baselines are kept here: the obvious numba version of Bird's algorithm (global generator,
+sine and cosine, three normals for f0), and the literal epsilon-perfect algorithm.
+"""
+
+import math
+import platform
+import resource
+import statistics
+import time
+
+import numpy as np
+
+from kacsim.boltzmann import bkw_tree, literal, literal_trap, trap, trap_tree
+from kacsim.boltzmann.constants import BREATHING
+from kacsim.cases import make_case
+from kacsim.kac import bird, perfect, poisson
+from kacsim.kac.constants import MEAN_ENERGY, RATE
+from kacsim.kernels.jit import kernel
+from kacsim.kernels.provenance import versions
+from kacsim.streams import new_stream
+
+TIME = 2.0
+
+
+@kernel
+def obvious_bird(velocities, n_particles, n_collisions):
+    """Draw v_1 by Bird's algorithm as one writes it first: the baseline of the benchmark."""
+    v = np.empty(n_particles)
+    for draw in range(velocities.size):
+        for i in range(n_particles):
+            square = 0.0
+            for _ in range(3):
+                square += 0.5 * np.random.standard_normal() ** 2
+            v[i] = math.sqrt(square) if np.random.random() < 0.5 else -math.sqrt(square)
+        for _ in range(n_collisions):
+            i = np.random.randint(n_particles)
+            j = np.random.randint(n_particles - 1)
+            if j >= i:
+                j += 1
+            angle = 2.0 * math.pi * np.random.random()
+            vi, vj = v[i], v[j]
+            v[i] = vi * math.cos(angle) + vj * math.sin(angle)
+            v[j] = vj * math.cos(angle) - vi * math.sin(angle)
+        velocities[draw] = v[0]
+
+
+def seconds_per_draw(call, n_draws, repeats):
+    """Return the median processor time of call(n_draws) per draw, after a call that compiles."""
+    call(2)
+    times = []
+    for _ in range(repeats):
+        start = time.process_time()
+        call(n_draws)
+        times.append(time.process_time() - start)
+    return statistics.median(times) / n_draws
+
+
+def run(repeats):
+    """Measure everything and print one line per figure."""
+    print(f"machine: {_processor()}; {versions()}; medians of {repeats}")
+    _bird(repeats)
+    _ancestral(repeats)
+    _perfect(repeats)
+    _initial(repeats)
+    _bkw_tree(repeats)
+    _trap_tree(repeats)
+    _memory()
+
+
+def _processor():
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            return next(line.split(":")[1].strip() for line in lines if "model name" in line)
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
+def _draws(kernel_function, arguments):
+    stream = new_stream(1, "benchmark")
+
+    def call(n):
+        kernel_function(np.empty(n), np.empty(n, np.int64), *arguments, stream)
+
+    return call
+
+
+def _parameters(n_particles, algorithm="bird"):
+    return {
+        "algorithm": algorithm,
+        "n_particles": n_particles,
+        "time": TIME,
+        "collision_rate": RATE,
+    }
+
+
+def _bird(repeats):
+    """Forward Bird against the obvious version, per collision."""
+    for n_particles, n_draws in ((50, 40_000), (1000, 2_000)):
+        arguments = bird.arguments(**_parameters(n_particles))
+        fast = seconds_per_draw(_draws(bird.forward, arguments), n_draws, repeats)
+        slow = seconds_per_draw(
+            lambda n, arguments=arguments: obvious_bird(np.empty(n), *arguments), n_draws, repeats
+        )
+        print(
+            f"Bird forward, N = {n_particles}: {fast / arguments[1] * 1e9:.1f} ns per collision, "
+            f"obvious version {slow / arguments[1] * 1e9:.1f}: ratio {slow / fast:.1f} (goal 6)"
+        )
+
+
+def _ancestral(repeats):
+    """Ancestral draws against forward ones, and their flatness in N."""
+    n_draws = 200_000
+    forward = seconds_per_draw(
+        _draws(bird.forward, bird.arguments(**_parameters(1000))), 2_000, repeats
+    )
+    for name, module in (("bird", bird), ("poisson", poisson)):
+        cost = {}
+        for n_particles in (50, 1000, 10**9):
+            arguments = module.arguments(**_parameters(n_particles, name))
+            cost[n_particles] = seconds_per_draw(
+                _draws(module.ancestral, arguments), n_draws, repeats
+            )
+        print(
+            f"{name} ancestral: {cost[50] * 1e6:.3f} us at N = 50, {cost[1000] * 1e6:.3f} at 1000, "
+            f"{cost[10**9] * 1e6:.3f} at 10^9: ratio 10^9 to 50 {cost[10**9] / cost[50]:.2f} "
+            f"(goal at most 1.3); forward Bird at 1000 to it {forward / cost[1000]:.0f} (goal 40)"
+        )
+
+
+def _perfect(repeats):
+    """The epsilon-perfect sampler against the literal algorithm."""
+    n_particles, tolerance = 50, 1e-6
+    energy = MEAN_ENERGY * n_particles
+    stream = new_stream(1, "benchmark")
+
+    def fast(n):
+        perfect.couple(np.empty(n), np.empty(n, np.int64), n_particles, energy, tolerance, stream)
+
+    inputs = perfect.record(n_particles, 6000, stream)
+
+    def literal(_):
+        perfect.couple_literally(n_particles, energy, tolerance, *inputs)
+
+    quick = seconds_per_draw(fast, 500, repeats)
+    slow = seconds_per_draw(literal, 1, min(repeats, 3))
+    print(
+        f"epsilon-perfect, N = 50: {quick * 1e3:.3f} ms per draw (goal 0.15), literal "
+        f"{slow * 1e3:.0f} ms: ratio {slow / quick:.0f} (goal 1000)"
+    )
+
+
+def _nodes(call, n_draws, repeats):
+    """Return (seconds per node, nodes per realization) of call(values, nodes)."""
+    counts = []
+
+    def one(n):
+        nodes = np.empty(n, np.int64)
+        call(np.empty(n), nodes)
+        counts.append(nodes.mean())
+
+    seconds = seconds_per_draw(one, n_draws, repeats)
+    mean = statistics.median(counts[1:])
+    return seconds / mean, mean
+
+
+def _initial(repeats):
+    """f0 by a table, by rejection and by the Gamma identity."""
+    from kacsim.techniques import identity, inverse_transform, rejection
+
+    stream = new_stream(1, "benchmark")
+    table = inverse_transform.law_table("kac_initial", 512)
+    bounds = {name: rejection.arguments("kac_initial", name) for name in ("constant", "closer")}
+    ways = {
+        "table": lambda n: inverse_transform.through_table(np.empty(n), table, stream),
+        "rejection, constant": lambda n: rejection.draw(np.empty(n), *bounds["constant"], stream),
+        "rejection, closer": lambda n: rejection.draw(np.empty(n), *bounds["closer"], stream),
+        "Gamma identity": lambda n: identity.draw(np.empty(n), stream),
+    }
+    cost = {name: seconds_per_draw(way, 500_000, repeats) for name, way in ways.items()}
+    print("f0: " + ", ".join(f"{name} {1e9 * cost[name]:.1f} ns" for name in ways))
+
+
+def _bkw_tree(repeats):
+    """Algorithm 2 against its plain recursion with vectors and printed weights."""
+    stream, budget = new_stream(1, "benchmark"), 10**7
+    fast, nodes = _nodes(
+        lambda v, n: bkw_tree.estimate(v, n, 2.0, TIME, 1.0, 0.0, budget, stream), 50_000, repeats
+    )
+    slow, _ = _nodes(lambda v, n: literal.estimate(v, n, 2.0, TIME, False, stream), 20_000, repeats)
+    print(
+        f"BKW tree, {nodes:.1f} nodes: {fast * 1e9:.1f} ns per node (goal 45), plain recursion "
+        f"{slow * 1e9:.1f}: ratio {slow / fast:.1f}"
+    )
+
+
+def _trap_tree(repeats):
+    """Algorithm 6 against its plain recursion, at the centre after half a turn."""
+    stream, budget, time_, eps = new_stream(1, "benchmark"), 10**7, 3.0, BREATHING
+    physics, laws = (3.0, eps, 0.0, 1.0), (trap.MAJORANT, 1.0, 0.0)
+    fast, nodes = _nodes(
+        lambda v, n: trap_tree.estimate(v, n, 0.0, 0.0, 0.0, time_, physics, laws, budget, stream),
+        20_000,
+        repeats,
+    )
+
+    slow, _ = _nodes(
+        lambda v, n: literal_trap.estimate(v, n, 0.0, 0.0, time_, 3.0, eps, False, stream),
+        5_000,
+        repeats,
+    )
+    print(
+        f"trap tree, {nodes:.1f} nodes: {fast * 1e9:.1f} ns per node (goal 120), plain recursion "
+        f"{slow * 1e9:.1f}: ratio {slow / fast:.1f}"
+    )
+
+
+def _memory():
+    """Peak memory after a sampler job of many draws."""
+    from kacsim.jobs import sampling
+
+    common = {"algorithm": "bird", "engine": "ancestral", "n_particles": 50, "time": TIME}
+    case = make_case("kac", n_draws=5_000_000, n_replicates=1, seed=1, **common)
+    sampling.run(case)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"peak memory after {case.n_draws} draws in one job: {peak:.0f} MB (goal below 400)")

@@ -1,0 +1,260 @@
+"""The report: datasets, figures and texts become one self-contained HTML page.
+
+Every number on the page comes from a dataset, from reports/published.yaml or from a formula; words
+come from the template, from captions.yaml (one entry per item) and from errata.yaml (one entry per
+text). No time, no random id and no network address: the same inputs give the same bytes.
+"""
+
+import functools
+import json
+import math
+import os
+import re
+from pathlib import Path
+from urllib.parse import quote
+from xml.etree import ElementTree
+
+import jinja2
+import numpy as np
+import yaml
+from markupsafe import Markup
+
+from kacsim import files, store
+from kacsim.boltzmann import bkw
+from kacsim.items import published
+from kacsim.kernels.provenance import ROOT
+from kacsim.report.numbers import (
+    FIXED_SPACE,
+    beside,
+    bound,
+    fixed,
+    listed,
+    measured,
+    number,
+    pm,
+    power,
+    printed,
+    subscripted,
+    typeset,
+)
+
+TEXTS = ROOT / "reports"
+SIGNS = {"reproduced": "✓", "corrected": "↻", "not reproduced": "✗", "undecided": "?"}
+FORMATS = ("svg", "png", "pdf")  # every figure is drawn in all of them
+
+
+def write(items, datasets_folder, figures_folder, output, options=""):
+    """Write the report of some items, in the given order, to the file `output`.
+
+    Parameters
+    ----------
+    items : names, in the order of the page
+    datasets_folder, figures_folder : where their files lie
+    output : file to create or replace
+    options : of the ``snakemake`` command that makes the results again; those of a run with other
+        values than the project's own, which the page then says
+
+    Raises
+    ------
+    StoreError
+        Names the dataset, figure or text that cannot be read, or the output.
+    """
+    paths = {name: Path(datasets_folder) / f"{name}.nc" for name in items}
+    datasets = {name: store.read(path) for name, path in paths.items()}
+    env, folder = environment(), Path(output).parent
+    claims = _claims(datasets.values(), published())
+    captions = yaml.safe_load(read_text(TEXTS / "captions.yaml"))
+    shown = []
+    for name in items:
+        if name not in captions:
+            raise files.StoreError(f"{TEXTS / 'captions.yaml'}: has no entry {name}")
+        figure = Path(figures_folder) / f"{name}.svg"
+        if figure.with_suffix(".sha256").exists():
+            files.check_sums(figure.with_suffix(".sha256"))
+        item = _item(env, name, datasets[name], captions[name], figure)
+        item["claims"] = [row for row in claims.values() if row["item"] == name]
+        item["dataset_link"] = _link(paths[name], folder)
+        item["links"] = {f: _link(figure.with_suffix(f".{f}"), folder) for f in FORMATS}
+        item["numbers_link"] = _link(figure.with_suffix(".csv"), folder)
+        shown.append(item)
+    verdicts = [row["verdict"] for row in claims.values()]
+    html = env.get_template("report.html.j2").render(
+        style=Markup(read_text(TEXTS / "style.css")),
+        texts=_texts(env, datasets, claims, shown),
+        items=shown,
+        claims=claims,
+        counts={word: verdicts.count(word) for word in SIGNS},
+        family_errors=sorted({row["family_error"] for row in claims.values()}),
+        sources=sorted({dataset.attrs["source"] for dataset in datasets.values()}),
+        seeds=sorted({dataset.attrs["settings"]["seed"] for dataset in datasets.values()}),
+        configuration=_configuration(datasets),
+        options=options,
+    )
+    files.replace_file(output, lambda name: Path(name).write_text(html, encoding="utf-8"))
+
+
+def without_files(html):
+    """Return the page without its links to other files: for a copy that stands alone."""
+    return re.sub(r'<a href="(?!#)[^"]*">(.*?)</a>', r"\1", html, flags=re.S)
+
+
+def environment():
+    """Return the template environment: escaping everything, refusing unknown names."""
+    loader, undefined = jinja2.FileSystemLoader(TEXTS), jinja2.StrictUndefined
+    trim = {"trim_blocks": True, "lstrip_blocks": True}
+    env = jinja2.Environment(loader=loader, autoescape=True, undefined=undefined, **trim)
+    env.globals |= {"number": number, "listed": listed, "pm": pm, "signs": SIGNS}
+    env.filters["subscripted"] = subscripted
+    env.globals["critical_time"] = bkw.critical_time
+    return env
+
+
+def _rendered(env, text, **words):
+    """Return a text with its expressions filled in."""
+    return Markup(bound(env.from_string(text).render(words)).strip())
+
+
+def read_text(path):
+    """Return the text of a file; StoreError names one that cannot be read."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise files.StoreError(f"{path}: cannot be read: {error}") from error
+
+
+def _link(path, folder):
+    """Return a file's address relative to the folder of the report."""
+    return quote(Path(os.path.relpath(path, folder)).as_posix())
+
+
+def _configuration(datasets):
+    """Return the settings of every item as JSON, without its copies of other items' settings."""
+    settings = {name: dict(dataset.attrs["settings"]) for name, dataset in datasets.items()}
+    for one in settings.values():
+        one.pop("items", None)
+    text = json.dumps(settings, indent=2, sort_keys=True)
+    return re.sub(r"\[[^]]*\]", lambda found: " ".join(found[0].split()), text)
+
+
+# Claims
+
+
+def _claims(datasets, entries):
+    """Return claim id -> its row in a table of claims, with its numbers as text."""
+    found = {}
+    for dataset in datasets:
+        columns = {name: dataset[name].values.tolist() for name in dataset if "claim" in dataset}
+        for cells in zip(*columns.values(), strict=True):
+            row = dict(zip(columns, cells, strict=True))
+            row["family_error"] = dataset.attrs["family_error"]
+            found[row["claim"]] = row | _worded(row, entries[row["claim"]])
+    return found
+
+
+def _worded(row, entry):
+    """Return a claim's published entry, and the texts of its numbers."""
+    error = row["standard_error"] or row["published_error"]
+    same = functools.partial(beside, error=error)
+    value, z, p = entry["value"], row["z"], row["adjusted_p_value"]
+    implied = value is None
+    reference = same(row["reference"]) if implied else printed(value, row["published_error"])
+    return {
+        "item": entry["item"],
+        "words": bound(entry["text"]),
+        "source": entry["source"].replace(" ", FIXED_SPACE).replace(f",{FIXED_SPACE}", ", "),
+        "implied": implied,
+        "reference_text": f"> {reference}" if row["kind"] == "effect" else reference,
+        "measured_text": pm(row["measured"], row["standard_error"]),
+        "corrected_text": "" if math.isnan(row["corrected"]) else same(row["corrected"]),
+        "exact": not error > 0,
+        "z_text": "+" * (z > 0) + fixed(z, 0 if abs(z) >= 100 else 1),
+        "p_text": f"p < {power(-300)}" if p < 1e-300 else f"p = {number(p, 2 if p < 0.1 else 3)}",
+        "evidence": bound(typeset(row["evidence"])),
+    }
+
+
+# Items and texts
+
+
+def _item(env, name, dataset, texts, figure):
+    """Return what the page shows of one item: rendered texts, figure and facts."""
+    s, known = dataset.attrs["settings"], dataset.attrs["published"]
+    words = {"s": s, "d": dataset, "published": known}
+    words["measured"] = functools.partial(measured, dataset)
+    parts = {key: _rendered(env, text, **words) for key, text in texts.items()}
+    alt = " ".join(parts["alt"].striptags().split())
+    svg, box = inline_svg(figure, name, f"{parts['label']}. {alt}")
+    own = {"name": name, "svg": svg, "box": box, "settings": s, "tvn": _tvn_table(dataset)}
+    if "engine" not in parts:
+        own["engine"] = s["engine"]
+    if "draws" not in parts:
+        many = f"{number(s['n_replicates'])} replicates of " if s["n_replicates"] > 1 else ""
+        own["draws"] = f"{many}{number(s['n_draws'])} draws"
+    return parts | own
+
+
+def _tvn_table(dataset):
+    """Return the mean TVN at every bin width and place, None if the item has none."""
+    if "tvn" not in dataset or "bin_width" not in dataset.tvn.dims:
+        return None
+    dataset = dataset.sortby("bin_width")
+    *dims, _ = dataset.tvn.dims
+    rows = []
+    for place in np.ndindex(dataset.tvn.shape[:-1]):
+        heads = [dataset[dim].values[k] for dim, k in zip(dims, place, strict=True)]
+        heads = [h.replace("_", " ") if isinstance(h, str) else number(h) for h in heads]
+        values, errors = dataset.tvn.values[place], dataset.tvn_error.values[place]
+        rows.append((heads, [pm(v, e) for v, e in zip(values, errors, strict=True)]))
+    return {
+        "dims": [dim.replace("n_particles", "N").replace("_", " ") for dim in dims],
+        "widths": [number(width) for width in dataset.bin_width.values],
+        "rows": rows,
+        "floor": [number(value, 3) for value in dataset.floor.values],
+    }
+
+
+def _texts(env, datasets, claims, shown):
+    """Return the texts that have items on the page, each with its items and its known errors."""
+    found = []
+    for key, text in yaml.safe_load(read_text(TEXTS / "errata.yaml")).items():
+        own = [item for item in shown if item["name"].partition("_")[0] == key]
+        errors = []
+        for error in text["errors"] if own else ():
+            rows = [claims[claim] for claim in error["claims"] if claim in claims]
+            words = {"note": ""} | {part: error[part] for part in error if part != "claims"}
+            words = {part: _rendered(env, w, datasets=datasets) for part, w in words.items()}
+            errors.append(words | {"claims": rows})
+        if own:
+            found.append(text | {"key": key, "items": own, "errors": errors})
+    return found
+
+
+def inline_svg(path, prefix, label):
+    """Return (markup, view box) of an SVG file, fit to stand in a page with others.
+
+    Ids get a prefix, so that they are unique in the page. Metadata, comments, namespaces and the
+    style sheet, which would rule the whole page, are left out.
+    """
+    try:
+        root = ElementTree.fromstring(read_text(path))
+    except ElementTree.ParseError as error:
+        raise files.StoreError(f"{path}: is not SVG: {error}; draw it again") from error
+    for element in list(root.iter()):
+        element.tag, element.tail = _local(element.tag), None
+        element.text = (element.text or "").strip() or None
+        for child in list(element):
+            if _local(child.tag) in ("metadata", "style"):
+                element.remove(child)
+        for key in list(element.attrib):
+            value = " ".join(element.attrib.pop(key).split()).replace("url(#", f"url(#{prefix}-")
+            edge = {"id": f"{prefix}-{value}", "href": value.replace("#", f"#{prefix}-", 1)}
+            element.set(_local(key), edge.get(_local(key), value))
+    box = root.get("viewBox")
+    size = f"--width:{box.split()[2]}"
+    root.attrib = {"viewBox": box, "role": "img", "aria-label": label, "style": size}
+    return Markup(ElementTree.tostring(root, encoding="unicode")), box
+
+
+def _local(name):
+    """Return a tag's or attribute's name without its namespace."""
+    return name.rpartition("}")[2]

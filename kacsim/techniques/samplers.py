@@ -1,0 +1,141 @@
+"""The samplers of the chapter, declared."""
+
+import functools
+
+from kacsim.checks import Problem, bounded, count, finite, not_negative, one_of, positive, rising
+from kacsim.checks import three as three_values
+from kacsim.samplers import Parameter, Sampler, real, whole
+from kacsim.techniques.constants import CLOSED, LAWS
+
+OUTSIDE = "a case carries every value that its declaration sets"
+
+ENVELOPES = ("constant", "closer")
+# The generator's name is that of the function that counts its points.
+GENERATORS = ("good", "exhausted", "congruential", "sobol")
+LARGEST_EDGE = 400  # cells along an edge: the counting table has 4 edge**2 places
+LARGEST_DIMENSION = 8
+TABLE_MEGABYTES = 0.25  # of one replicate's counts by cell
+
+
+def rejection(*, law, envelope):
+    """Yield the problem of an envelope that the law does not have."""
+    if envelope == "closer" and law != "kac_initial":
+        yield Problem("envelope", envelope, "only kac_initial has a closer envelope")
+
+
+def law(allowed=LAWS):
+    """Return the parameter that names a law."""
+    check = functools.partial(one_of, allowed=allowed)
+    return Parameter("law", "", f"name of the law: {', '.join(allowed)}", check)
+
+
+def word(name, allowed):
+    """Return a parameter that is one of some words."""
+    check = functools.partial(one_of, allowed=allowed)
+    return Parameter(name, "", f"{', '.join(allowed[:-1])} or {allowed[-1]}", check)
+
+
+def vector(name, short, meaning, check=finite):
+    """Return a parameter of three numbers."""
+    return Parameter(name, short, meaning, check, kind=real, many=True, whole=three_values)
+
+
+def several(name, short, meaning, check, whole_check=None):
+    """Return a parameter of some integers."""
+    return Parameter(name, short, meaning, check, kind=whole, many=True, whole=whole_check)
+
+
+def points_cost(parameters):
+    """Return the uniforms that the points of every dimension take."""
+    return max(parameters["n_points"]) * sum(parameters.get("dimension", [6]))
+
+
+def tables_megabytes(parameters):
+    """Return the memory of one replicate's counts by cell, table by table."""
+    return TABLE_MEGABYTES * len(parameters.get("n_table", [1]))
+
+
+DIMENSIONS = several(
+    "dimension", "d", "dimensions of the spheres",
+    functools.partial(bounded, least=1, most=LARGEST_DIMENSION),
+)  # fmt: skip
+POINTS = several("n_points", "n", "numbers of points, growing", count, rising)
+TEMPERATURE = Parameter(
+    "temperature", "temp", "T/m, variance of a velocity component", positive, kind=real
+)
+DRIFT = vector("drift", "drift", "drift velocity, three components")
+GAS = (
+    Parameter("density", "n", "particles per volume", positive, kind=real),
+    TEMPERATURE,
+    DRIFT,
+    vector("half_width", "box", "half widths of the cuboid, three", positive),
+    Parameter("step", "dt", "duration of a step", positive, kind=real),
+)
+TINY_GAS = {
+    "density": 1.0, "temperature": 1.0, "drift": [0.1, 0.0, 0.0], "half_width": [1.0] * 3,
+    "step": 0.1,
+}  # fmt: skip
+sampler = functools.partial(Sampler, replicate_megabytes=tables_megabytes)
+SAMPLERS = (
+    sampler(
+        "inverse_transform", "values of a law through tables of several sizes",
+        (law(), several("n_table", "table", "intervals of the tables", count)),
+        ({"law": "ramp", "n_table": [2]},), kernels="inverse_transform",
+    ),
+    sampler(
+        "inversion", "values of a law by its inverted cumulative function",
+        (law(CLOSED), Parameter("rate", "rate", "rate of the law", positive, kind=real)),
+        ({"law": "ramp", "rate": 1.0},), kernels="inverse_transform",
+    ),
+    sampler(
+        "rejection", "values of a law by rejection under an envelope",
+        (law(), word("envelope", ENVELOPES)),
+        ({"law": "ramp", "envelope": "constant"},), kernels="rejection", check=rejection,
+    ),
+    sampler("identity", "values of f0 by the Gamma identity", (), ({},), kernels="identity"),
+    sampler(
+        "injection", "particles injected through the faces of a cuboid", GAS, (TINY_GAS,),
+        kernels="injection",
+    ),
+    sampler(
+        "outer_gas", "particles of an outer gas that fly into a cuboid", GAS, (TINY_GAS,),
+        kernels="injection",
+    ),
+    sampler(
+        "weighted_particles", "particles injected from weighted representatives",
+        (
+            Parameter(
+                "n_representatives", "n", "number of representative particles", count, kind=whole
+            ),
+            TEMPERATURE,
+            DRIFT,
+        ),
+        ({"n_representatives": 50, "temperature": 1.0, "drift": [0.0] * 3},), kernels="particles",
+    ),
+    sampler(
+        "sphere_lattice", "volumes of spheres on lattices",
+        (
+            DIMENSIONS,
+            several(
+                "edge", "m", "points per edge of the lattices",
+                functools.partial(bounded, least=1, most=LARGEST_EDGE),
+            ),
+        ),
+        ({"dimension": [2], "edge": [2]},), kernels="integration", by_replicate=False,
+    ),
+    sampler(
+        "sphere_points", "volumes of spheres with random or quasi-random points",
+        (word("generator", GENERATORS), DIMENSIONS, POINTS),
+        tuple({"generator": name, "dimension": [2], "n_points": [2]} for name in GENERATORS),
+        kernels="integration", cost=points_cost,
+        entries=lambda parameters: (f"count_{parameters['generator']}",),
+    ),
+    sampler(
+        "area", "the area under (1 - x^2)^exponent with random points",
+        (
+            Parameter("exponent", "power", "exponent of 1 - x^2", not_negative, kind=real),
+            POINTS,
+        ),
+        ({"exponent": 0.3, "n_points": [2]},), kernels="integration", cost=points_cost,
+    ),
+)  # fmt: skip

@@ -1,0 +1,149 @@
+"""What is made again after an edit: what the edit changes, and nothing else.
+
+Each edit goes through a real dry run of Snakemake on a finished smoke run, and is undone.
+"""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from runs import SMOKE
+
+from kacsim import items
+
+FAMILY = {"samples": "sample", "datasets": "reduce", "figures": "draw"}
+
+
+@pytest.fixture(scope="module")
+def edited(finished, tmp_path_factory):
+    """Return a function: edit a file of a finished project, plan, undo; what would be made."""
+    folder = tmp_path_factory.mktemp("edited") / "project"
+    shutil.copytree(finished.folder, folder, symlinks=True)
+    project = type(finished)(folder)
+
+    def plan(file, old, new):
+        path = folder / file
+        text = path.read_text(encoding="utf-8")
+        assert text.count(old) == 1, f"{file} holds {old!r} {text.count(old)} times"
+        kept = folder.parent / "kept"
+        shutil.copy2(path, kept)
+        path.write_text(text.replace(old, new), encoding="utf-8")
+        try:
+            answer = project.snakemake("--dry-run", *SMOKE)
+        finally:
+            shutil.copy2(kept, path)
+        assert answer.returncode == 0, answer.stdout + answer.stderr
+        return planned(answer.stdout)
+
+    return plan
+
+
+def planned(output):
+    """Return stage -> names of the files' stems that a dry run would make."""
+    found = {"sample": set(), "reduce": set(), "draw": set(), "report": set()}
+    for line in re.findall(r"^    output: (.*)$", output, re.M):
+        for name in line.split(", "):
+            path = Path(name)
+            stage = FAMILY.get(path.parent.name, "report")
+            found[stage].add(path.name if stage == "report" else path.name.rpartition(".")[0])
+    return found
+
+
+def of(stem, names):
+    return {name for name in names if name.startswith(stem)}
+
+
+NOTHING = [
+    ("kacsim/kac/bird.py", '    """Return E v_1**4 after', '    # A remark.\n    """Return E v_1**4, after'),
+    ("kacsim/cases.py", "BASE_MEGABYTES = 350", "BASE_MEGABYTES = 400"),
+    ("kacsim/store.py", "drawn by other code; run", "drawn by some other code; run"),
+    ("kacsim/boltzmann/bkw_estimators.py", '"""Estimate f(c; t) of', '"""Give f(c; t) of'),
+    ("kacsim/boltzmann/samplers.py", '"radii of the probes,', '"distances of the probes,'),
+    ("kacsim/boltzmann/estimators.py", "past the budget of nodes;", "past its budget of nodes;"),
+    ("kacsim/checks.py", "must be a positive finite number", "must be positive and finite"),
+    ("kacsim/jobs/sampling.py", "def run(case, progress=None):", "def run(case, progress=None):  # here"),
+    ("kacsim/kac/draws.py", "n_draws=n_draws,\n        n_replicates=1,\n        seed=seed,\n        **parameters,", "n_draws=n_draws,\n        seed=seed,\n        n_replicates=1,\n        **parameters,"),
+    ("README.md", "# kacsim", "# kacsim!"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("file", "old", "new"), NOTHING, ids=[edit[0] for edit in NOTHING])
+def test_an_edit_that_changes_no_result_redoes_nothing(edited, file, old, new):
+    assert not any(edited(file, old, new).values())
+
+
+def all_samples(finished):
+    return {path.stem for path in (finished.folder / "results/samples").glob("*.nc")}
+
+
+# file, old, new, first words of the cases that are drawn again, of some that are not
+SAMPLES = [
+    ("kacsim/techniques/exact.py", "NARROW = 2.0 / 3.0", "NARROW = 0.5",
+     ["rejection"], ["identity", "kac-", "bkw"]),
+    ("kacsim/techniques/constants.py", '    "ramp": (0.0, 1.0),\n    "triangle": (0.0, 1.0),',
+     '    "triangle": (0.0, 1.0),\n    "ramp": (0.0, 1.0),', ["rejection", "inversion"], ["kac-", "bkw"]),
+    ("kacsim/statistics/histogram.py", "LIMIT = 8.0", "LIMIT = 7.0", ["kac-bird", "kac-equilibrium"],
+     ["trap", "bkw", "rejection", "kac-probe"]),
+    ("kacsim/boltzmann/trap.py", "MAJORANT = ", "MAJORANT = 1.1 * ", ["trap", "trap-literal"],
+     ["bkw", "kac"]),
+    ("kacsim/kac/constants.py", "RATE = math.sqrt(math.pi) / 2", "RATE = 1.0",
+     ["kac-bird", "kac-poisson", "kac-probe"], ["kac-equilibrium", "kac-corners", "bkw", "trap"]),
+    ("kacsim/kac/constants.py", "MEAN_ENERGY = 1.5", "MEAN_ENERGY = 1.0",
+     ["kac-equilibrium", "kac-corners"], ["kac-bird", "bkw"]),
+    ("kacsim/boltzmann/samplers.py", "are oversampled\", not_negative, 0.0", "are oversampled\", not_negative, 0.1",
+     ["bkw-c", "bkw-fraction", "kac-probe"], ["trap", "kac-bird"]),
+    ("kacsim/boltzmann/constants.py", "COUPLING = 3.0", "COUPLING = 2.0", ["trap"], ["bkw", "kac"]),
+    ("kacsim/kac/bird.py", "touched += (i == 0) + (j == 0)", "touched += (i == 0)",
+     ["kac-bird-forward"], ["kac-bird-ancestral", "kac-poisson", "kac-nanbu", "bkw"]),
+    ("kacsim/streams.py", "shifted = s1 << uint64(17)", "shifted = s1 << uint64(18)",
+     ["kac-bird", "bkw", "trap", "identity", "injection"], ["sphere-lattice"]),
+    ("kacsim/variates.py", "_N_TAIL = 3.6541528853610088", "_N_TAIL = 3.65", ["kac-bird", "trap"],
+     ["sphere-lattice", "area", "inverse-transform"]),
+    ("kacsim/kac/sampling.py", "sums[3] += square**4", "sums[3] += square**5",
+     ["kac-bird", "kac-equilibrium"], ["kac-corners", "kac-probe", "bkw"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "drawn", "spared"), SAMPLES, ids=[edit[0] for edit in SAMPLES]
+)
+def test_an_edit_of_what_draws_redraws_its_cases_alone(
+    edited, finished, file, old, new, drawn, spared
+):
+    again = edited(file, old, new)["sample"]
+    everything = all_samples(finished)
+    for stem in drawn:
+        wanted = of(stem, everything)
+        assert wanted and wanted <= again, f"not drawn again: {sorted(wanted - again)[:3]}"
+    for stem in spared:
+        assert of(stem, everything), stem
+        assert not of(stem, again), f"drawn again: {sorted(of(stem, again))[:3]}"
+
+
+EVERY = set(items.NAMES)
+KAC_FIGURES = {"kac_fig1", "kac_fig3", "kac_fig4"}
+# file, old, new, items reduced again and drawn again; every dataset made anew is drawn anew
+LATER = [
+    ("reports/published.yaml", "value: 0.0187", "value: 0.0178", {"kac_fig1", "kac_numbers"}, None),
+    ("kacsim/items/__init__.py", "settings=settings, published=values", "published=values, settings=settings",
+     EVERY, None),
+    ("kacsim/kac/samplers.py", 'Variant("bird", "Bird")', 'Variant("bird", "Bird (DSMC)")', set(),
+     KAC_FIGURES),
+    ("kacsim/plotting.py", '"axes.titlesize": 9', '"axes.titlesize": 10', set(), EVERY),
+    ("kacsim/items/kac_fig4.py", '"""Draw ', '"""Paint ', set(), set()),
+    ("kacsim/report/csv_table.py", 'lineterminator="\\n"', 'lineterminator="\\r\\n"', set(), EVERY),
+    ("reports/captions.yaml", "label: Fig. 4", "label: Figure 4", set(), set()),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "reduced", "drawn"), LATER, ids=[edit[0] for edit in LATER]
+)
+def test_an_edit_of_a_later_stage_redoes_that_stage(edited, file, old, new, reduced, drawn):
+    again = edited(file, old, new)
+    assert not again["sample"]
+    assert again["reduce"] == reduced
+    assert again["draw"] >= (reduced if drawn is None else drawn)
+    if drawn in (None, set()):
+        assert again["draw"] == reduced

@@ -7,6 +7,7 @@
 #   results/report/runtime.html             how long the jobs took
 #
 # Each item is a target by name: `snakemake -c2 kac_fig3`.
+import os
 import re
 import shlex
 import sys
@@ -16,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, workflow.basedir)
 
 from kacsim import items, plan
-from kacsim.jobs import console, labels, stages
+from kacsim.jobs import client, console, labels, server, stages
 from kacsim.kernels.provenance import ROOT
 from kacsim.report import browser
 
@@ -26,10 +27,12 @@ configfile: ROOT / "config" / "config.yaml"
 
 # `kacsim` in a rule is the interpreter that runs Snakemake on this clone, installed or not;
 # a job has one core, so the threads of its linear algebra would only cost their start.
+CLIENT = shlex.join([sys.executable, "-S", "-E", client.__file__])
 shell.prefix(
-    'kacsim() {{ OPENBLAS_NUM_THREADS=1 PYTHONPATH=%s %s -m kacsim "$@"; }}; '
-    % (shlex.quote(str(ROOT)), shlex.quote(sys.executable))
+    'kacsim() {{ OPENBLAS_NUM_THREADS=1 PYTHONPATH=%s %s "$@"; }}; '
+    % (shlex.quote(str(ROOT)), CLIENT)
 )
+SERVED = os.environ.pop(client.ADDRESS, None) != "off" and workflow.local_exec
 
 START = time.time()
 FORMATS = ("svg", "png", "pdf", "csv")
@@ -71,6 +74,11 @@ include: "workflow/rules/sample.smk"
 include: "workflow/rules/reduce.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/report.smk"
+
+
+onstart:
+    if SERVED:
+        server.start(ROOT)
 
 
 onsuccess:

@@ -33,7 +33,7 @@ FIGURES = {  # of these the report finds out: a run of single items has no stage
 
 
 def other_circumstances(make, expected, full):
-    """Repeat the run with other cores, order, clock, language, hash seed and folder."""
+    """Repeat the run with other cores, order, clock, language, hash seed and folders."""
     ways = {
         "one core": {"cores": 1},
         "four cores": {"cores": 4},
@@ -41,6 +41,7 @@ def other_circumstances(make, expected, full):
         "time zone": {"TZ": "Asia/Kathmandu"},
         "locale": {"LC_ALL": "C", "LANG": "tr_TR.UTF-8"},
         "hash seed": {"PYTHONHASHSEED": "77"},
+        "no temporary folder": {"TMPDIR": "/nowhere/at/all"},
     }
     if not full:
         merged = {key: value for way in ways.values() for key, value in way.items()}
@@ -52,9 +53,22 @@ def other_circumstances(make, expected, full):
 
 
 def _signal(process, number):
-    """Send a signal to a process group, unless it has already ended."""
+    """Send a signal to a process, or to its group; return whether it was still there."""
     with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, number)
+        if isinstance(process, subprocess.Popen):
+            os.killpg(process.pid, number)
+        else:
+            os.kill(process, number)
+        return True
+    return False
+
+
+def _wait_for_a_moment(choice, run, process, full):
+    """Wait until some jobs have started, how many is left to chance, and a little longer."""
+    wanted = choice.randrange(20 if full else 4)
+    while process.poll() is None and run.started() < wanted:
+        time.sleep(0.02)
+    time.sleep(choice.uniform(0.0, 0.7))
 
 
 def kill_everything(make, expected, full, n_kills=None):
@@ -62,64 +76,51 @@ def kill_everything(make, expected, full, n_kills=None):
     choice, run, killed = random.Random(11), make(), 0
     for _ in range(n_kills or (20 if full else 3)):
         process = run.start(KACSIM_CHROMIUM=shutil.which("chromium") or "")
-        time.sleep(choice.uniform(1.5, 9.0 if full else 5.0))
+        _wait_for_a_moment(choice, run, process, full)
         _signal(process, signal.SIGKILL)
         killed += process.wait() == -signal.SIGKILL
         time.sleep(0.2)
-        if run.processes():
-            raise FaultError(f"orphans after a kill: {run.processes()}")
+        # What jobs are forked from draws nothing, and may still be busy with its imports.
+        if orphans := run.jobs() or run.ends():
+            raise FaultError(f"orphans after a kill: {orphans}")
         run.run("--unlock")
     same(run.resume(), expected, "after kills")
     return killed
 
 
 def kill_jobs(make, expected, full):
-    """Kill single jobs at random moments; the run fails, and the next one completes."""
+    """Kill single jobs, or what they are forked from, at random moments; the next run completes."""
     choice, run, killed = random.Random(12), make(), 0
-    for _ in range(10 if full else 2):
-        process, end = run.start(), time.monotonic() + choice.uniform(2.0, 8.0)
-        while time.monotonic() < end and process.poll() is None:
-            time.sleep(0.1)
-        jobs = [pid for pid in run.processes() if b"kacsim" in _command(pid)]
-        for pid in jobs[:1]:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-                killed += 1
+    for k in range(10 if full else 2):
+        process = run.start()
+        _wait_for_a_moment(choice, run, process, full)
+        while process.poll() is None and not (found := run.jobs()):
+            time.sleep(0.005)
+        if process.poll() is None:
+            victim = choice.choice((run.servers() if k % 2 else []) or found)
+            killed += _signal(victim, signal.SIGKILL)
         process.wait()
     same(run.complete(), expected, "after killed jobs")
     return killed
 
 
-def _command(pid):
-    try:
-        words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-    except OSError:
-        return b""
-    return b" ".join(words) if b"-m" in words and b"snakemake" not in words else b""
-
-
 def interrupt(make, expected, full):
-    """End a run by Ctrl-C or by SIGTERM: no lock and no partial file is left."""
-    choice, tries = random.Random(13), 0
-    for number in (signal.SIGINT, signal.SIGTERM):
-        run = make()
-        for _ in range(5 if full else 1):
-            process = run.start()
-            time.sleep(choice.uniform(3.0, 9.0))
-            _signal(process, number)
-            process.wait()
-            time.sleep(0.5)
-            if run.leftovers():
-                raise FaultError(f"{signal.Signals(number).name} left {run.leftovers()}")
-            tries += 1
-        same(run.complete(), expected, signal.Signals(number).name)
-    return tries
+    """End a run by Ctrl-C or by SIGTERM: no process, lock or partial file is left."""
+    choice, run, interrupted = random.Random(13), make(), 0
+    for number in (signal.SIGINT, signal.SIGTERM) * (5 if full else 1):
+        process = run.start()
+        _wait_for_a_moment(choice, run, process, full)
+        _signal(process, number)
+        interrupted += process.wait() != 0
+        if left := run.ends() or run.leftovers():
+            raise FaultError(f"{signal.Signals(number).name} left {left}")
+    same(run.complete(), expected, "after signals")
+    return interrupted
 
 
 def break_files(make, expected, full):
     """Break files of every kind: rebuilt, or named with what to do; never silently used."""
-    choice, run, tries = random.Random(14), make(), 0
-    run.complete()
+    choice, run, tries = random.Random(14), make(finished=True), 0
     kinds = KINDS if run.targets else KINDS | FIGURES
     cases = [(kind, way) for kind in kinds for way in (truncate, zero, flip, swap, remove)]
     if not full:
@@ -213,33 +214,23 @@ def full_disk(make, expected, full):
     return tries
 
 
-def no_temporary_folder(make, expected, full):
-    """Run without the folder that TMPDIR names."""
-    same(make().complete(TMPDIR="/nowhere/at/all"), expected, "no TMPDIR")
-    return 1
-
-
 def two_at_once(make, expected, full):
     """Two runs in one folder: the second is refused. In two folders: a cold cache is shared."""
-    run = make()
-    first = run.start()
-    while not run.leftovers() and first.poll() is None:
+    pair = [make(), make()]
+    for run in pair:
+        run.cache = pair[0].folder / "kernels"
+    processes = [run.start(cores=1) for run in pair]
+    while not pair[0].leftovers() and processes[0].poll() is None:
         time.sleep(0.05)
-    command = [sys.executable, "-m", "snakemake", "-c1", *run.targets, *SMOKE]
-    second = subprocess.run(command, cwd=run.folder, capture_output=True, text=True)
+    command = [sys.executable, "-m", "snakemake", "-c1", *pair[0].targets, *SMOKE]
+    second = subprocess.run(command, cwd=pair[0].folder, capture_output=True, text=True)
     if not second.returncode or "cannot be locked" not in second.stdout + second.stderr:
         raise FaultError(f"the second run was not refused: {second.stderr[-1000:]}")
-    if first.wait():
-        raise FaultError("the first run was disturbed")
-    same(run.checksums(), expected, "two in one folder")
-    pair = [make(), make()]
-    pair[1].cache = pair[0].cache
-    shutil.rmtree(pair[0].cache, ignore_errors=True)
-    processes = [one.start(cores=1) for one in pair]
-    if [status for status in [process.wait() for process in processes] if status]:
-        raise FaultError("two cold runs that share a kernel cache disturb each other")
-    for one in pair:
-        same(one.checksums(), expected, "two that share a cache")
+    statuses = [process.wait() for process in processes]
+    if any(statuses):
+        raise FaultError("runs disturb each other, in one folder or by a cold cache they share")
+    for run in pair:
+        same(run.checksums(), expected, "two at once")
     return 2
 
 
@@ -250,9 +241,25 @@ SCENARIOS = (
     interrupt,
     break_files,
     full_disk,
-    no_temporary_folder,
     two_at_once,
 )
+
+
+class Maker:
+    """Makes runs in new folders of a scratch folder; they share the kernels of a first one."""
+
+    def __init__(self, scratch, targets, undisturbed=None):
+        self.scratch, self.targets = scratch, targets
+        self.undisturbed = undisturbed or self._new(cache=Path(scratch) / "kernels")
+
+    def _new(self, **choices):
+        return Run(tempfile.mkdtemp(dir=self.scratch), self.targets, **choices)
+
+    def __call__(self, finished=False):
+        """Return a new run; a finished one is a copy, its kernels too, to be broken at will."""
+        if finished:
+            return self._new(finished=self.undisturbed)
+        return self._new(cache=self.undisturbed.cache)
 
 
 def main():
@@ -262,12 +269,8 @@ def main():
     parser.add_argument("--items", nargs="+", default=[], help="items; everything without")
     wanted = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
-        cache = Path(scratch) / "kernels"
-
-        def make():
-            return Run(tempfile.mkdtemp(dir=scratch), wanted.items, cache)
-
-        expected = make().complete()
+        make = Maker(scratch, wanted.items)
+        expected = make.undisturbed.complete()
         bad = 0
         print(f"{'scenario':22}{'tries':>6}{'seconds':>9}  result", flush=True)
         for scenario in SCENARIOS:

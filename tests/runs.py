@@ -2,9 +2,11 @@
 
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -30,15 +32,20 @@ class Run:
 
     Parameters
     ----------
-    folder : where to copy to
+    folder : where to copy to; a copy that is there already is used as it is
     targets : names of items; none means everything
     cache : folder of the compiled kernels, ``folder/kernels`` if not given
+    finished : Run of the same targets that is copied, results and all; none if not given
     """
 
-    def __init__(self, folder, targets=(), cache=None):
+    def __init__(self, folder, targets=(), cache=None, finished=None):
         self.folder, self.targets = Path(folder), targets
         self.cache = Path(cache or self.folder / "kernels")
-        copy_project(self.folder)
+        if finished is not None:
+            shutil.copytree(finished.folder, self.folder, dirs_exist_ok=True)
+            shutil.copytree(finished.cache, self.cache, dirs_exist_ok=True)
+        elif not (self.folder / "Snakefile").exists():
+            copy_project(self.folder)
 
     def start(self, *words, cores=2, **environment):
         """Start Snakemake in a process group of its own; output goes to ``folder/out.txt``."""
@@ -97,6 +104,47 @@ class Run:
             except OSError:
                 continue
         return found
+
+    def jobs(self):
+        """Return the ids of processes that do a job or wait for it: not Snakemake, no shell."""
+        return [pid for pid in self.processes() if _is_job(_words(pid)) and not _is_server(pid)]
+
+    def servers(self):
+        """Return the ids of processes from which the jobs of a run are forked."""
+        return [pid for pid in self.processes() if _is_server(pid)]
+
+    def started(self):
+        """Return how many jobs the run has said to have started."""
+        said = (self.folder / "out.txt").read_text(encoding="utf-8")
+        return len(re.findall(r"^\[\d+/\d+\] ", said, re.M))
+
+    def ends(self, seconds=10.0):
+        """Return the processes that still work in the folder after some time, none if all end."""
+        end = time.monotonic() + seconds
+        while (found := self.processes()) and time.monotonic() < end:
+            time.sleep(0.02)
+        return found
+
+
+def _words(process):
+    """Return the words of a process's command, none if it has gone."""
+    try:
+        return Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")
+    except OSError:
+        return []
+
+
+def _is_job(words):
+    ours = any(b"kacsim" in word for word in words[1:])
+    return ours and b"snakemake" not in words and b"-c" not in words
+
+
+def _is_server(process):
+    """Tell a server from the jobs that are forked from it: it leads a session of its own."""
+    try:
+        return b"kacsim.jobs.server" in _words(process) and os.getsid(process) == process
+    except OSError:
+        return False
 
 
 def same(found, expected, what):

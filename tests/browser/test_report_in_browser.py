@@ -1,13 +1,11 @@
 """The report in a real browser: Debian's Chromium, driven by Playwright, asked by axe-core.
 
-KACSIM_TEST_RESULTS names the results of a finished run; without it, the smoke run is made.
+KACSIM_TEST_RESULTS names the results of a finished run; without it, they are the smoke run's.
 KACSIM_AXE names axe.min.js; without it, ``npm ci`` in this folder is where it is looked for.
 """
 
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -17,7 +15,7 @@ from kacsim.report import browser, printing
 from kacsim.report import page as report
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+GIVEN = os.environ.get("KACSIM_TEST_RESULTS")
 VIEWS = {
     "wide": {"width": 1200},
     "narrow": {"width": 380},
@@ -54,17 +52,19 @@ def axe():
     return path
 
 
-@pytest.fixture(scope="session")
-def results(chromium, tmp_path_factory):
-    """Return the results of a run; without a browser none is made."""
-    if "KACSIM_TEST_RESULTS" in os.environ:
-        return Path(os.environ["KACSIM_TEST_RESULTS"]).resolve()
-    folder = tmp_path_factory.mktemp("smoke")
-    smoke = ("--configfile", "config/smoke.yaml", "--directory", str(folder))
-    command = [sys.executable, "-m", "snakemake", "--cores", "2", *smoke]
-    answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert answer.returncode == 0, answer.stdout + answer.stderr
-    return folder / "results"
+if GIVEN:
+
+    @pytest.fixture(scope="session")
+    def results(chromium):
+        """Return the results of the run that is named."""
+        return Path(GIVEN).resolve()
+
+else:
+
+    @pytest.fixture(scope="session")
+    def results(chromium, smoke_run):
+        """Return the results of the smoke run."""
+        return smoke_run / "results"
 
 
 @pytest.fixture(

@@ -1,0 +1,213 @@
+"""One warmed process from which the jobs of a run are forked: imports are paid once, not per job.
+
+It is started by Snakemake on Linux, ends with it, however that ends, and serves `client.py`. A job
+keeps its own process, log, status and benchmark; one whose client goes away is told to end.
+"""
+
+import atexit
+import contextlib
+import gc
+import importlib
+import json
+import os
+import pkgutil
+import selectors
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import kacsim
+from kacsim.jobs.client import ADDRESS, LONGEST
+
+SET_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of linux/prctl.h
+# What libraries import late by themselves.
+LATE = (
+    "matplotlib.backends.backend_agg",
+    "matplotlib.backends.backend_pdf",
+    "matplotlib.backends.backend_svg",
+    "numba.core.runtime.nrt",
+    "scipy.special",
+    "xarray.backends.netCDF4_",
+)
+
+
+def start(root):
+    """Start a server for the jobs of this process; they find it by the environment.
+
+    Parameters
+    ----------
+    root : Path, the folder of the package
+    """
+    if sys.platform != "linux":  # elsewhere the system's libraries do not survive a fork
+        return
+    address = str(Path(tempfile.mkdtemp(prefix="kacsim-")) / "jobs")
+    environment = {**os.environ, "PYTHONPATH": str(root), "OPENBLAS_NUM_THREADS": "1"}
+    # Bound here, so that no job finds it too early; closed here, so that none waits for the dead.
+    with socket.socket(socket.AF_UNIX) as listening:
+        listening.bind(address)
+        listening.listen(64)
+        # The pipe is never written to: its end tells the server that this process is gone.
+        start.process = subprocess.Popen(
+            [sys.executable, "-m", "kacsim.jobs.server", address, str(listening.fileno())],
+            stdin=subprocess.PIPE,
+            env=environment,
+            pass_fds=(listening.fileno(),),
+            start_new_session=True,
+        )
+    os.environ[ADDRESS] = address
+
+
+class Server:
+    """Forks a child for each connection and sends its status back when it ends."""
+
+    def __init__(self, listening):
+        """Take over a listening socket."""
+        self.socket = listening
+        self.children = {}  # process id -> connection of its client
+        read, write = os.pipe()
+        os.set_blocking(write, False)
+        signal.set_wakeup_fd(write)
+        signal.signal(signal.SIGCHLD, lambda number, frame: None)
+        self.ended = read
+        self.waiting = selectors.DefaultSelector()
+        for source in (self.socket, self.ended, sys.stdin.fileno()):
+            self.waiting.register(source, selectors.EVENT_READ)
+
+    def serve(self):
+        """Serve until the process that started this one is gone."""
+        while True:
+            for key, _ in self.waiting.select():
+                if key.fileobj is self.socket:
+                    self._accept()
+                elif key.fileobj == self.ended:
+                    os.read(self.ended, 4096)
+                    self._bury()
+                elif key.fileobj == sys.stdin.fileno():
+                    self._end_all()
+                    return
+                else:
+                    self._end(key.fileobj)
+
+    def _accept(self):
+        connection, _ = self.socket.accept()
+        message, descriptors, _, _ = socket.recv_fds(connection, LONGEST, 3)
+        while message and not message.endswith(b"\n"):
+            more = connection.recv(LONGEST)
+            message = message + more if more else b""
+        if not message:
+            connection.close()
+            return
+        child = os.fork()
+        if child == 0:
+            self._become_job(json.loads(message), descriptors)
+        for descriptor in descriptors:
+            os.close(descriptor)
+        self.children[child] = connection
+        self.waiting.register(connection, selectors.EVENT_READ)
+
+    def _become_job(self, request, descriptors):
+        """Run a command in this child, and never return."""
+        signal.set_wakeup_fd(-1)
+        end_with_parent()
+        for number in (signal.SIGCHLD, signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_DFL)
+        self.waiting.close()
+        self.socket.close()
+        for connection in self.children.values():
+            connection.close()
+        for target, descriptor in enumerate(descriptors):
+            os.dup2(descriptor, target)
+            os.close(descriptor)
+        status = 1
+        try:
+            os.chdir(request["folder"])
+            os.environ.clear()
+            os.environ.update(request["environment"])
+            status = run(request["words"])
+        finally:
+            with contextlib.suppress(OSError, ValueError):
+                sys.stdout.flush()
+                sys.stderr.flush()
+            os._exit(status)
+
+    def _bury(self):
+        """Send the status of every child that has ended to its client."""
+        while self.children:
+            child, status = os.waitpid(-1, os.WNOHANG)
+            if child == 0:
+                return
+            connection = self.children.pop(child)
+            self._forget(connection)
+            code = os.waitstatus_to_exitcode(status)
+            with contextlib.suppress(OSError):
+                connection.sendall(str(code if code >= 0 else 128 - code).encode())
+            connection.close()
+
+    def _end(self, connection):
+        """Tell the job of a client that has gone to end."""
+        for child, of_child in self.children.items():
+            if of_child is connection:
+                os.kill(child, signal.SIGTERM)
+        self._forget(connection)
+
+    def _end_all(self):
+        for child in self.children:
+            os.kill(child, signal.SIGTERM)
+
+    def _forget(self, connection):
+        with contextlib.suppress(KeyError):
+            self.waiting.unregister(connection)
+
+
+def end_with_parent():
+    """Let the kernel send SIGTERM to this process when its parent is gone, were it by SIGKILL."""
+    import ctypes
+
+    ctypes.CDLL(None).prctl(SET_DEATH_SIGNAL, signal.SIGTERM)
+
+
+def run(words):
+    """Run one command as `python -m kacsim` would; return its exit status."""
+    import traceback
+
+    from kacsim import cli
+
+    sys.argv = ["kacsim", *words]
+    try:
+        status = cli.main(words)
+    except SystemExit as end:
+        status = end.code if isinstance(end.code, int) else int(end.code is not None)
+    except BaseException:
+        traceback.print_exc()
+        status = 1
+    atexit._run_exitfuncs()
+    return status
+
+
+def warm():
+    """Import what jobs need. Nothing is computed: caches must be each job's own."""
+    own = (module.name for module in pkgutil.walk_packages(kacsim.__path__, "kacsim."))
+    for name in (*LATE, *own):
+        if not name.endswith("__main__"):
+            importlib.import_module(name)
+    gc.collect()
+    gc.freeze()  # children share these pages: collecting there would copy them
+
+
+def main(address, descriptor):
+    """Serve at an address, whose socket is handed over, until standard input ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for Snakemake, which then ends
+    try:
+        server = Server(socket.socket(fileno=int(descriptor)))
+        warm()
+        server.serve()
+    finally:
+        shutil.rmtree(Path(address).parent, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

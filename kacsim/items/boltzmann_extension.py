@@ -116,7 +116,7 @@ def draw(dataset):
     panels = (("value", "error"), ("recursion", None), ("effective_share", None))
     for k in range(dataset.sizes["probe"]):
         here = dataset.isel(probe=k)
-        what = "$f$" if here.name == "trap" else "fraction"
+        what = "$f$" if here.sampler == "trap" else "fraction"
         label = f"{what}, $r$ = {float(here.radius):g}"
         for axis, (name, error) in zip(axes, panels, strict=False):
             bars = None if error is None else here[error]

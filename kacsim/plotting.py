@@ -108,7 +108,7 @@ def plain_log(axis):
     axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def pm(mean):
+def with_error(mean):
     """Return an estimate as text, with two digits of its error."""
     if not (mean.standard_error > 0):
         return f"{mean.value:.4g}"

@@ -174,16 +174,18 @@ class Sampler:
 
     def problems(self, parameters):
         """Return what is wrong with a case's parameters, each and then together."""
+        first = parameters[self.parameters[0].name] if self.variants else None
+        unknown = self.variants and first not in [variant.name for variant in self.variants]
         found = [
             problem
-            for parameter in self.parameters_of(parameters)
+            for parameter in (self.parameters if unknown else self.parameters_of(parameters))
             if parameter.default is not None or parameters[parameter.name] is not None
             for problem in parameter.problems(parameters[parameter.name])
         ]
         if not found and self.check:
             found += self.check(**parameters)
         for variant in self.variants:
-            if not found and variant.check and variant.name == parameters[self.parameters[0].name]:
+            if not found and variant.check and variant.name == first:
                 found += variant.check(**parameters)
         return found
 

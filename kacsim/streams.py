@@ -12,6 +12,8 @@ from numba import uint64
 
 from kacsim.kernels.jit import inlined
 
+CHUNK = 8192  # draws of one call of a kernel, which are then summed
+
 
 def new_stream(seed, name="", replicate=0):
     """Return the state of one stream.

@@ -112,6 +112,12 @@ def half_normal(stream):
 
 
 @inlined
+def normal(stream):
+    """Return a standard normal variate."""
+    return half_normal(stream) * random_sign(stream)
+
+
+@inlined
 def unit_circle(stream):
     """Return (cos, sin) of a uniform angle (polar method, angle doubled; 2.55 uniforms)."""
     while True:

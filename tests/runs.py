@@ -113,10 +113,11 @@ class Run:
         """Return the ids of processes from which the jobs of a run are forked."""
         return [pid for pid in self.processes() if _is_server(pid)]
 
-    def started(self):
-        """Return how many jobs the run has said to have started."""
+    def progress(self):
+        """Return the share of its jobs that the run has said to have started."""
         said = (self.folder / "out.txt").read_text(encoding="utf-8")
-        return len(re.findall(r"^\[\d+/\d+\] ", said, re.M))
+        started = re.findall(r"^\[(\d+)/(\d+)\] ", said, re.M)
+        return int(started[-1][0]) / int(started[-1][1]) if started else 0.0
 
     def ends(self, seconds=10.0):
         """Return the processes that still work in the folder after some time, none if all end."""

@@ -1,4 +1,4 @@
-"""Bird's algorithm with lazy pairs: a picked pair collides with a chance only.
+"""Bird's algorithm with lazy pairs: for each that collides, some are passed over.
 
 An example of a new algorithm of Kac's model: docs/architecture.md walks through it.
 """
@@ -23,7 +23,7 @@ from kacsim.variates import failures_before_success, gap_scale, index_below, pai
 
 def arguments(*, n_particles, time, collision_rate, laziness):
     """Return the kernels' parameters: particles, pairs picked, and the chance of a collision."""
-    return n_particles, math.ceil(collision_rate * n_particles * time / 2), 1.0 - laziness
+    return n_particles, math.ceil(collision_rate * n_particles * time / 2), 1.0 / (1.0 + laziness)
 
 
 @kernel
@@ -93,7 +93,10 @@ def ancestral(velocities, own, n_particles, n_picked, chance, stream, first, sec
 
 
 def fourth_moment(*, n_particles, time, collision_rate, laziness):
-    """Return E v_1**4: each pick keeps 1 - chance (N + 2) / (2 N (N - 1)) of the distance to 3/5 E."""
+    """Return E v_1**4 after all picks.
+
+    Each keeps 1 - chance (N + 2) / (2 N (N - 1)) of the distance to 3/5 of the squared energy.
+    """
     n = n_particles
     _, picked, chance = arguments(
         n_particles=n, time=time, collision_rate=collision_rate, laziness=laziness

@@ -1,8 +1,6 @@
 """Algorithms 2 and 3 of the Boltzmann paper: the BKW mode probed by branching trees."""
 
-import numpy as np
-
-from kacsim.boltzmann.model import BKW, DEPTH, shell, speed_beyond, tree
+from kacsim.boltzmann.model import BKW_LAW, shell, speed_beyond, tree, workspace
 from kacsim.kernels.jit import kernel
 from kacsim.variates import exponential, half_normal
 
@@ -25,10 +23,10 @@ def estimate(values, nodes, speed, time, oversampling, onset, max_nodes, stream)
     -------
     bool, False if a realization exceeded the budget (the others after it are not drawn)
     """
-    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    stack, counts = workspace()
     for k in range(values.size):
         values[k], nodes[k] = tree(
-            BKW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
+            BKW_LAW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         if nodes[k] < 0:
             return False
@@ -41,11 +39,11 @@ def estimate_fraction(values, nodes, threshold, time, oversampling, onset, max_n
 
     Parameters and result as `estimate`, with threshold = c0 / c_q.
     """
-    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    stack, counts = workspace()
     for k in range(values.size):
         speed, weight = speed_beyond(threshold, stream)
         ratio, nodes[k] = tree(
-            BKW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
+            BKW_LAW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         values[k] = weight * shell(speed, 1.0) * ratio
         if nodes[k] < 0:
@@ -59,12 +57,12 @@ def estimate_moment(values, nodes, oversampling, time, onset, max_nodes, stream)
 
     Parameters and result as `estimate`.
     """
-    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    stack, counts = workspace()
     for k in range(values.size):
         z = half_normal(stream)
         square = z * z + 2.0 * exponential(stream)
         values[k], nodes[k] = tree(
-            BKW, square, time, oversampling, onset, max_nodes, stack, counts, stream
+            BKW_LAW, square, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         if nodes[k] < 0:
             return False

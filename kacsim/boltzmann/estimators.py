@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from kacsim import checks
-from kacsim.streams import new_stream
+from kacsim.streams import CHUNK, new_stream
 
-CHUNK = 8192
 SMALLEST = float(np.finfo(float).tiny)
 BudgetError = checks.BudgetError
 

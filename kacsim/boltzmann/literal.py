@@ -9,13 +9,10 @@ import math
 import numpy as np
 
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import exponential, half_normal, random_sign, uniform
+from kacsim.variates import exponential, normal, uniform
 
-
-@inlined
-def normal(stream):
-    """Return a standard normal variate."""
-    return half_normal(stream) * random_sign(stream)
+# Columns of a recorded branch; velocity and position take three each.
+START, STOP, VELOCITY, POSITION, PARENT = 0, 1, 2, 5, 8
 
 
 @inlined
@@ -91,39 +88,34 @@ def record(speed, time, max_nodes, stream):
 
     Returns
     -------
-    float64[branches, 9]: start, stop (the drawn t', zero or less at a leaf), velocity (3),
-    position at the start (3), row of the parent (-1 at the root);
-    no rows if the tree exceeds max_nodes
+    float64[branches, 9]: at `START`, at `STOP` the drawn t' (zero or less at a leaf), at `VELOCITY`
+    and at `POSITION`, where the branch begins, three each, at `PARENT` its row (-1 at the root); no
+    rows if the tree exceeds max_nodes
     """
-    rows = np.empty((max_nodes, 9))
-    waiting = np.empty((max_nodes, 8))
+    rows, waiting = np.empty((max_nodes, 9)), np.empty((max_nodes, 9))
     waiting[0] = 0.0
-    waiting[0, 0], waiting[0, 1], waiting[0, 7] = time, speed, -1.0
+    waiting[0, START], waiting[0, VELOCITY], waiting[0, PARENT] = time, speed, -1.0
     n_waiting, n = 1, 0
     while n_waiting > 0:
         if n == max_nodes:
             return rows[:0]
         n_waiting -= 1
-        begin, x, y, z = waiting[n_waiting, :4]
-        px, py, pz, parent = waiting[n_waiting, 4:]
-        stop = begin - exponential(stream)
-        rows[n, 0], rows[n, 1], rows[n, 8] = begin, stop, parent
-        rows[n, 2], rows[n, 3], rows[n, 4] = x, y, z
-        rows[n, 5], rows[n, 6], rows[n, 7] = px, py, pz
+        here = rows[n]
+        here[:] = waiting[n_waiting]
+        here[STOP] = here[START] - exponential(stream)
         n += 1
-        if stop > 0.0:
+        if here[STOP] > 0.0:
             if n_waiting + 2 > max_nodes:
                 return rows[:0]
+            x, y, z = here[VELOCITY:POSITION]
             ax, ay, az, bx, by, bz, _ = collision(x, y, z, stream)
-            span = begin - stop
-            for k in range(2):
-                waiting[n_waiting, 0], waiting[n_waiting, 7] = stop, float(n - 1)
-                waiting[n_waiting, 4] = px - span * x
-                waiting[n_waiting, 5] = py - span * y
-                waiting[n_waiting, 6] = pz - span * z
-                waiting[n_waiting, 1] = bx if k == 0 else ax
-                waiting[n_waiting, 2] = by if k == 0 else ay
-                waiting[n_waiting, 3] = bz if k == 0 else az
+            span = here[START] - here[STOP]
+            for velocity in ((bx, by, bz), (ax, ay, az)):
+                branch = waiting[n_waiting]
+                branch[START], branch[PARENT] = here[STOP], float(n - 1)
+                for axis in range(3):
+                    branch[VELOCITY + axis] = velocity[axis]
+                    branch[POSITION + axis] = here[POSITION + axis] - span * here[VELOCITY + axis]
                 n_waiting += 1
     return rows[:n]
 

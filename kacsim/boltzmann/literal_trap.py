@@ -9,10 +9,10 @@ import math
 import numpy as np
 
 from kacsim.boltzmann import trap
-from kacsim.boltzmann.literal import isotropic, normal
+from kacsim.boltzmann.literal import isotropic
 from kacsim.boltzmann.trap import MAJORANT
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import exponential, uniform
+from kacsim.variates import exponential, normal, uniform
 
 
 @inlined

@@ -4,21 +4,25 @@ Algorithm 1 of the Boltzmann paper is the general form. Its collisions keep the 
 equilibrium M over the pair, so that an estimate is M at the probe times the product over the
 leaves of f(0) / M (the text's own argument for the null variance): no weight can overflow.
 
-Two laws are known: BKW, Maxwell molecules in three dimensions with the sampling laws of eq. (10),
-and KAC, the one-dimensional Kac equation. The initial conditions and the collisions are
-isotropic, so that a node needs only its energy x, in units of that of a standard normal velocity
-per axis.
+Two laws are known: `BKW_LAW`, Maxwell molecules in three dimensions with the sampling laws of
+eq. (10), and `KAC_LAW`, the one-dimensional Kac equation. The initial conditions and the
+collisions are isotropic, so that a node needs only its energy x, in units of that of a standard
+normal velocity per axis.
 """
 
 import math
 
+import numpy as np
 from numba import int64
 
 from kacsim.kernels.jit import inlined
 from kacsim.variates import exponential, half_normal, squared_cosine, uniform
 
-BKW, KAC = 0, 1
+BKW_LAW, KAC_LAW = 0, 1
 DEPTH = 4096  # levels of the stack; a path of so many collisions within the time does not occur
+# Columns of the two workspaces of `tree`, a row per level.
+SECOND, WHEN, ENERGY, SUM, FIRST_MEAN = range(5)
+SIDE, LEFT, COPIES = range(3)
 BKW_LEAF = 5.0 / 9.0 * (5.0 / 3.0) ** 1.5
 KAC_LEAF = 3.0 * math.sqrt(3.0)
 
@@ -66,18 +70,30 @@ def copies(oversampling, stream):
 
 
 @inlined
+def workspace():
+    """Return what `tree` keeps of every level.
+
+    Returns
+    -------
+    (float64[DEPTH, 5], int64[DEPTH, 3]): energy x'* of the second side, time, energy of the side
+    under way, sum of its sub-estimates, mean of the first side; side, sub-estimates left, and
+    their number
+    """
+    return np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+
+
+@inlined
 def tree(law, x, time, oversampling, onset, max_nodes, stack, counts, stream):
     """Return (F / M, nodes) of one realization; nodes is -1 if the budget is exceeded.
 
     Parameters
     ----------
-    law : BKW or KAC
+    law : BKW_LAW or KAC_LAW
     x, time : energy of the probe, and t in mean collision times
     oversampling : m >= 1, mean number of sub-estimates behind each side of a collision
     onset : collisions before this time are not oversampled; 0 oversamples everywhere
     max_nodes : int, budget
-    stack : float64[DEPTH, 5], per level: x'*, time, energy of the side under way, sum, first mean
-    counts : int64[DEPTH, 3], per level: side, sub-estimates left, their number
+    stack, counts : of `workspace`, overwritten
     """
     level, nodes = 0, 0
     while True:
@@ -86,38 +102,38 @@ def tree(law, x, time, oversampling, onset, max_nodes, stack, counts, stream):
         if time > 0.0:
             if nodes >= max_nodes or level >= DEPTH:
                 return 0.0, -1
-            if law == BKW:
+            if law == BKW_LAW:
                 first, second = bkw_scatter(x, stream)
             else:
                 first, second = kac_scatter(x, stream)
-            stack[level, 0], stack[level, 1], stack[level, 2] = second, time, first
-            stack[level, 3] = 0.0
-            counts[level, 0] = 0
+            stack[level, SECOND], stack[level, WHEN], stack[level, ENERGY] = second, time, first
+            stack[level, SUM] = 0.0
+            counts[level, SIDE] = 0
             more = oversampling if time > onset else 1.0
-            counts[level, 1] = counts[level, 2] = copies(more, stream)
+            counts[level, LEFT] = counts[level, COPIES] = copies(more, stream)
             level += 1
             x = first
             continue
-        value = bkw_leaf(x) if law == BKW else kac_leaf(x)
+        value = bkw_leaf(x) if law == BKW_LAW else kac_leaf(x)
         while level > 0:
             top = level - 1
-            stack[top, 3] += value
-            counts[top, 1] -= 1
-            if counts[top, 1] > 0:
+            stack[top, SUM] += value
+            counts[top, LEFT] -= 1
+            if counts[top, LEFT] > 0:
                 break
-            value = stack[top, 3] / counts[top, 2]
-            if counts[top, 0] == 0:
-                stack[top, 4], stack[top, 3] = value, 0.0
-                stack[top, 2] = stack[top, 0]
-                counts[top, 0] = 1
-                more = oversampling if stack[top, 1] > onset else 1.0
-                counts[top, 1] = counts[top, 2] = copies(more, stream)
+            value = stack[top, SUM] / counts[top, COPIES]
+            if counts[top, SIDE] == 0:
+                stack[top, FIRST_MEAN], stack[top, SUM] = value, 0.0
+                stack[top, ENERGY] = stack[top, SECOND]
+                counts[top, SIDE] = 1
+                more = oversampling if stack[top, WHEN] > onset else 1.0
+                counts[top, LEFT] = counts[top, COPIES] = copies(more, stream)
                 break
-            value *= stack[top, 4]
+            value *= stack[top, FIRST_MEAN]
             level -= 1
         if level == 0:
             return value, nodes
-        x, time = stack[level - 1, 2], stack[level - 1, 1]
+        x, time = stack[level - 1, ENERGY], stack[level - 1, WHEN]
 
 
 @inlined

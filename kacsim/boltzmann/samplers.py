@@ -27,7 +27,7 @@ def grid(name, short, meaning, check=not_negative):
     return Parameter(name, short, meaning, check, kind=real, many=True)
 
 
-def number(name, short, meaning, check, default):
+def quantity(name, short, meaning, check, default):
     """Return a real parameter with a default."""
     return Parameter(name, short, meaning, check, default, kind=real)
 
@@ -63,11 +63,11 @@ at_least_one = functools.partial(at_least, least=1.0)
 BUDGET = Parameter(
     "max_nodes", "budget", "budget of nodes of one tree", count, MAX_NODES, kind=whole
 )
-ONSET = number(
+ONSET = quantity(
     "onset", "from", "collisions later than this time are oversampled", not_negative, 0.0
 )
 TREE = (
-    number(
+    quantity(
         "oversampling", "m", "mean number of sub-estimates that replace each one",
         at_least_one, 1.0,
     ),
@@ -82,30 +82,31 @@ TRAP_TIMES = grid("time", "t", "times t, in 1 / omega")
 LITERAL_TIMES = grid("time", "t", "times t, at most 10", literal_time)
 
 
-def start(*allowed, **more):
+def initial_state(*allowed, **more):
     """Return the parameter that names the state at time 0."""
     check = functools.partial(one_of, allowed=allowed)
     return Parameter("initial", "", f"state at time 0: {' or '.join(allowed)}", check, **more)
 
 
-EPS = number("breathing", "eps", "amplitude eps of the breathing state", amplitude, BREATHING)
-STRENGTH = number("coupling", "coupling", "n kappa omega^2 / c_eq^3", positive, COUPLING)
+EPS = quantity("breathing", "eps", "amplitude eps of the breathing state", amplitude, BREATHING)
+STRENGTH = quantity("coupling", "coupling", "n kappa omega^2 / c_eq^3", positive, COUPLING)
 # The weight of c* grows without bound for a narrower law than the Maxwellian.
-LAWS = (
-    number(
+SAMPLING_LAWS = (
+    quantity(
         "majorant_factor", "majorant", "factor on the raised collision frequency", positive, 1.0
     ),
-    number(
+    quantity(
         "spread", "spread", "width of the law of c* over that of the breathing state",
         at_least_one, 1.0,
     ),
-    number(
+    quantity(
         "anisotropy", "anisotropy", "departure of the law of u' from the isotropic one",
         slant, 0.0,
     ),
 )  # fmt: skip
-PHASE = number("start_phase", "phi", "phase phi0 of the breathing state", finite, 0.0)
-TRAP = (RADII, TRAP_TIMES, start(*STARTS, default="bkw"), EPS, PHASE, STRENGTH, *LAWS, BUDGET)
+PHASE = quantity("start_phase", "phi", "phase phi0 of the breathing state", finite, 0.0)
+INITIAL = initial_state(*STARTS, default="bkw")
+TRAP = (RADII, TRAP_TIMES, INITIAL, EPS, PHASE, STRENGTH, *SAMPLING_LAWS, BUDGET)
 
 
 def probing(name, draws, kernels, parameters, tiny, growth=1.0):
@@ -126,7 +127,7 @@ def probing(name, draws, kernels, parameters, tiny, growth=1.0):
     )
 
 
-def trap(name, draws):
+def probing_trap(name, draws):
     """Return the declaration of a sampler in the trap, whose trees grow half as fast."""
     return probing(name, draws, "trap_tree", TRAP, {"radius": [1.0], "time": [1.0]}, 0.5)
 
@@ -153,7 +154,7 @@ SAMPLERS = (
     ),
     probing(
         "bkw_literal", "estimates of f(c; t) by plain recursion in vectors", "literal",
-        (start("bkw", "equilibrium", default="bkw"), SPEEDS, LITERAL_TIMES),
+        (initial_state("bkw", "equilibrium", default="bkw"), SPEEDS, LITERAL_TIMES),
         {"initial": "bkw", "speed": [1.0], "time": [1.0]},
     ),
     probing(
@@ -165,12 +166,12 @@ SAMPLERS = (
         ),
         {"majorant": [1.0], "time": [1.0]},
     ),
-    trap("trap", "estimates of f(r; c; t) in the trap, Algorithms 5 and 6"),
-    trap("trap_fraction", "estimates of the fraction beyond a radius, Algorithm 7"),
-    trap("trap_energy", "estimates of the mechanical energy beyond a radius"),
+    probing_trap("trap", "estimates of f(r; c; t) in the trap, Algorithms 5 and 6"),
+    probing_trap("trap_fraction", "estimates of the fraction beyond a radius, Algorithm 7"),
+    probing_trap("trap_energy", "estimates of the mechanical energy beyond a radius"),
     probing(
         "trap_literal", "estimates in the trap by plain recursion in vectors", "literal_trap",
-        (start(*STARTS, default="bkw"), RADII, LITERAL_TIMES, EPS, STRENGTH),
+        (INITIAL, RADII, LITERAL_TIMES, EPS, STRENGTH),
         {"radius": [1.0], "time": [1.0]}, 0.5,
     ),
     probing(

@@ -9,7 +9,14 @@ from kacsim.store import described
 from kacsim.streams import new_stream
 
 KEPT = 100_000  # realizations are not kept: for cases that hold other first values
+RECORDED_NODES = 64  # larger trees are not recorded
 TOP = 500  # largest values kept at each probe, for the index of the tail
+SUMMED = {
+    "mean": "mean of the realizations",
+    "mean_square": "mean square of the realizations",
+    "largest": "largest realization",
+    "nodes": "mean recursion: t' drawings of one realization",
+}
 
 
 def binding(case):
@@ -37,7 +44,7 @@ def sample(case, progress):
     axis, bind = binding(case)
     shape = (len(p[axis]), len(p["time"]))
     rows = len(case.replicates)
-    sums = np.zeros((4, *shape, rows))
+    sums = {name: np.zeros((*shape, rows)) for name in SUMMED}
     n_top = min(TOP, case.n_draws * rows)
     top = np.full((*shape, n_top), -np.inf)
     done = 0
@@ -46,24 +53,19 @@ def sample(case, progress):
             draw = bind(first, time)
             for row, replicate in enumerate(case.replicates):
                 stream = new_stream(case.seed, f"{case.id} probe {i} {j}", replicate)
-                place = (slice(None), i, j, row)
+                here = i, j, row
                 for values, nodes in chunks(draw, case.n_draws, stream):
-                    sums[place] += values.sum(), (values * values).sum(), 0.0, nodes.sum()
-                    sums[2, i, j, row] = max(sums[2, i, j, row], values.max())
+                    sums["mean"][here] += values.sum()
+                    sums["mean_square"][here] += (values * values).sum()
+                    sums["largest"][here] = max(sums["largest"][here], values.max())
+                    sums["nodes"][here] += nodes.sum()
                     top[i, j] = np.partition(np.append(top[i, j], values), -n_top)[-n_top:]
                     done += values.size
                     progress(done)
-    sums[[0, 1, 3]] /= case.n_draws
+    for name in ("mean", "mean_square", "nodes"):
+        sums[name] /= case.n_draws
     dims = (axis, "time", "replicate")
-    names = {
-        "mean": "mean of the realizations",
-        "mean_square": "mean square of the realizations",
-        "largest": "largest realization",
-        "nodes": "mean recursion: t' drawings of one realization",
-    }
-    variables = {
-        name: described(sums[k], dims, text) for k, (name, text) in enumerate(names.items())
-    }
+    variables = {name: described(sums[name], dims, text) for name, text in SUMMED.items()}
     return variables | {
         axis: described(np.array(p[axis], dtype=float), (axis,), axis),
         "time": described(np.array(p["time"], dtype=float), ("time",), "time"),
@@ -74,9 +76,6 @@ def sample(case, progress):
 def descending(values):
     """Return values sorted along the last axis, largest first; zeros have no sign."""
     return np.sort(values + 0.0, axis=-1)[..., ::-1]
-
-
-RECORDED_NODES = 64  # larger trees are not recorded
 
 
 def sample_bkw_tree(case, progress):
@@ -94,17 +93,18 @@ def sample_bkw_tree(case, progress):
         trees.append(literal.record(float(p["speed"]), float(p["time"]), RECORDED_NODES, stream))
     progress(case.n_draws)
     rows = np.concatenate(trees)
-    span = rows[:, 0] - np.maximum(rows[:, 1], 0.0)
+    start, stop = rows[:, literal.START], rows[:, literal.STOP]
+    velocity, begin = (rows[:, first : first + 3] for first in (literal.VELOCITY, literal.POSITION))
+    end = begin - (start - np.maximum(stop, 0.0))[:, None] * velocity
     vector, one = ("branch", "axis"), ("branch",)
     numbers = np.repeat(np.arange(len(trees)), [tree.shape[0] for tree in trees])
+    parent = rows[:, literal.PARENT].astype(np.int64)
     return {
         "tree": described(numbers, one, "number of the tree"),
-        "start": described(rows[:, 0], one, "time where the branch begins"),
-        "stop": described(rows[:, 1], one, "drawn t', zero or less at a leaf"),
-        "velocity": described(rows[:, 2:5], vector, "velocity of the branch"),
-        "begin": described(rows[:, 5:8], vector, "position where the branch begins"),
-        "end": described(
-            rows[:, 5:8] - span[:, None] * rows[:, 2:5], vector, "position where it ends"
-        ),
-        "parent": described(rows[:, 8].astype(np.int64), one, "row of the parent, -1 at the root"),
+        "start": described(start, one, "time where the branch begins"),
+        "stop": described(stop, one, "drawn t', zero or less at a leaf"),
+        "velocity": described(velocity, vector, "velocity of the branch"),
+        "begin": described(begin, vector, "position where the branch begins"),
+        "end": described(end, vector, "position where it ends"),
+        "parent": described(parent, one, "row of the parent, -1 at the root"),
     }

@@ -8,6 +8,7 @@ Units as in `kacsim.boltzmann.trap`.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numba import int64
@@ -15,13 +16,40 @@ from numba import int64
 from kacsim.boltzmann.model import DEPTH, bkw_leaf, shell, speed_beyond
 from kacsim.boltzmann.trap import MAJORANT, flow
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import exponential, half_normal, random_sign, uniform
+from kacsim.variates import exponential, normal, uniform
+
+# Columns of a level of the stack of `tree`: phase and radius of a collision, its weight q, the
+# radial components of the four velocities, each followed by the tangential one, and W1 to W4.
+WHEN, WHERE, WEIGHT = range(3)
+BEFORE, PARTNER, AFTER, PARTNER_AFTER = range(3, 11, 2)
+W1, W2, W3, W4 = range(11, 15)
 
 
-@inlined
-def normal(stream):
-    """Return a standard normal variate."""
-    return half_normal(stream) * random_sign(stream)
+class Laws(NamedTuple):
+    """The sampling laws of a tree.
+
+    Attributes
+    ----------
+    rate : of the inner majorant
+    ratio : q, the real frequency over the raised one
+    spread, anisotropy : of the laws of c* and u', as in `collide`
+    start : 1.0 for the BKW start and 0.0 for the breathing state
+    """
+
+    rate: float
+    ratio: float
+    spread: float
+    anisotropy: float
+    start: float
+
+
+class Breathing(NamedTuple):
+    """The breathing state: eps, phi0, and at time 0 flow / r and the thermal speed squared."""
+
+    amplitude: float
+    phase: float
+    flow: float
+    square: float
 
 
 @inlined
@@ -40,13 +68,13 @@ def back(radius, radial, tangential, angle):
 @inlined
 def start_ratio(radius, radial, tangential, state):
     """Return W of a leaf at time 0: the BKW start over its Maxwellian."""
-    gap = radial - state[2] * radius
-    return bkw_leaf((gap * gap + tangential * tangential) / state[3])
+    gap = radial - state.flow * radius
+    return bkw_leaf((gap * gap + tangential * tangential) / state.square)
 
 
 @inlined
-def collide(radial, tangential, flow, width, spread, anisotropy, out, stream):
-    """Draw c* and u'; write the three new velocities; return the weight of the laws.
+def collide(radial, tangential, flow, width, spread, anisotropy, here, stream):
+    """Draw c* and u'; write the new velocities into a level; return the weight of the laws.
 
     Parameters
     ----------
@@ -54,7 +82,7 @@ def collide(radial, tangential, flow, width, spread, anisotropy, out, stream):
     flow, width : peculiar velocity (radial) and RMS velocity of the breathing state there
     spread : c* is drawn with the RMS velocity spread * width; 1 in the text
     anisotropy : u' has the density (1 + anisotropy mu) / 4 pi, mu the radial component
-    out : float64[6], overwritten: (radial, tangential) of c*, c' and c'*
+    here : float64[15], a level of the stack, overwritten from `PARTNER` to `W1`
     """
     x, y, z = normal(stream), normal(stream), normal(stream)
     square = spread * spread * (x * x + y * y + z * z)
@@ -73,11 +101,11 @@ def collide(radial, tangential, flow, width, spread, anisotropy, out, stream):
         0.5 * gap * level * math.sin(angle),
     )
     mean_x, mean_y, mean_z = 0.5 * (radial + x), 0.5 * (tangential + y), 0.5 * z
-    out[0], out[1] = x, math.sqrt(y * y + z * z)
-    out[2] = mean_x + half_x
-    out[3] = math.sqrt((mean_y + half_y) ** 2 + (mean_z + half_z) ** 2)
-    out[4] = mean_x - half_x
-    out[5] = math.sqrt((mean_y - half_y) ** 2 + (mean_z - half_z) ** 2)
+    here[PARTNER], here[PARTNER + 1] = x, math.sqrt(y * y + z * z)
+    here[AFTER] = mean_x + half_x
+    here[AFTER + 1] = math.sqrt((mean_y + half_y) ** 2 + (mean_z + half_z) ** 2)
+    here[PARTNER_AFTER] = mean_x - half_x
+    here[PARTNER_AFTER + 1] = math.sqrt((mean_y - half_y) ** 2 + (mean_z - half_z) ** 2)
     return weight
 
 
@@ -88,12 +116,8 @@ def tree(radius, radial, tangential, time, laws, state, stack, places, max_nodes
     Parameters
     ----------
     radius, radial, tangential, time : probe; time is the phase omega t
-    laws : float64[5], rate of the inner majorant, q, spread, anisotropy, 1 for the BKW start and
-        0 for the breathing state
-    state : float64[4], eps, phi0, and at time 0 flow / r and the thermal speed squared
-    stack : float64[DEPTH, 15], per level: time, radius, weight, the branches' four velocities (8)
-        and results (4)
-    places : int64[DEPTH], the branch under way
+    laws, state : Laws, Breathing
+    stack, places : float64[DEPTH, 15], overwritten; int64[DEPTH], per level the branch under way
     """
     level, nodes, drawn = 0, 0, 0
     while True:
@@ -103,59 +127,62 @@ def tree(radius, radial, tangential, time, laws, state, stack, places, max_nodes
             drawn += 1
             if drawn > max_nodes:
                 return 0.0, -1
-            span = exponential(stream) / laws[0]
+            span = exponential(stream) / laws.rate
             if span >= time:
                 radius, radial, tangential = back(radius, radial, tangential, time)
                 break
             time -= span
             radius, radial, tangential = back(radius, radial, tangential, span)
-            size = 1.0 + state[0] * math.sin(2.0 * time + state[1])
-            chance = math.exp(-0.5 * radius * radius / size) * ((1.0 - state[0]) / size) ** 1.5
+            size = 1.0 + state.amplitude * math.sin(2.0 * time + state.phase)
+            chance = math.exp(-0.5 * radius * radius / size)
+            chance *= ((1.0 - state.amplitude) / size) ** 1.5
             if uniform(stream) < chance:
                 collided = True
                 break
         if collided:
             if level >= DEPTH:
                 return 0.0, -1
-            phi = 2.0 * time + state[1]
-            flow = state[0] * math.cos(phi) / size * radius
-            width = math.sqrt((1.0 - state[0] * state[0]) / size)
+            phi = 2.0 * time + state.phase
+            flow = state.amplitude * math.cos(phi) / size * radius
+            width = math.sqrt((1.0 - state.amplitude * state.amplitude) / size)
             here = stack[level]
-            here[0], here[1], here[3], here[4] = time, radius, radial, tangential
-            here[2] = laws[1] * collide(
-                radial, tangential, flow, width, laws[2], laws[3], here[5:11], stream
+            here[WHEN], here[WHERE] = time, radius
+            here[BEFORE], here[BEFORE + 1] = radial, tangential
+            here[WEIGHT] = laws.ratio * collide(
+                radial, tangential, flow, width, laws.spread, laws.anisotropy, here, stream
             )
             places[level] = 0
             level += 1
             continue
-        value = start_ratio(radius, radial, tangential, state) if laws[4] == 1.0 else 1.0
+        value = start_ratio(radius, radial, tangential, state) if laws.start == 1.0 else 1.0
         while level > 0:
             here = stack[level - 1]
-            here[11 + places[level - 1]] = value
+            here[W1 + places[level - 1]] = value
             places[level - 1] += int64(1)
             if places[level - 1] < 4:
                 break
-            value = here[11] + here[2] * (here[13] * here[14] - here[11] * here[12])
+            value = here[W1] + here[WEIGHT] * (here[W3] * here[W4] - here[W1] * here[W2])
             level -= 1
         if level == 0:
             return value, nodes
-        here, place = stack[level - 1], 3 + 2 * places[level - 1]
-        time, radius, radial, tangential = here[0], here[1], here[place], here[place + 1]
+        here, place = stack[level - 1], BEFORE + 2 * places[level - 1]
+        time, radius, radial, tangential = here[WHEN], here[WHERE], here[place], here[place + 1]
 
 
 @inlined
-def frozen_state(breathing, start_phase):
-    """Return `state` of `tree`."""
+def prepared(physics, choices):
+    """Return (laws, state, stack, places) of `tree` from what the kernels are given.
+
+    The inner majorant is the densest that the cloud ever is.
+    """
+    coupling, breathing, start_phase, start = physics
+    majorant, spread, anisotropy = choices
+    densest = (2.0 * math.pi * (1.0 - breathing)) ** -1.5
+    laws = Laws(majorant * coupling * densest, 1.0 / majorant, spread, anisotropy, start)
     size = 1.0 + breathing * math.sin(start_phase)
     flow = breathing * math.cos(start_phase) / size
-    return np.array([breathing, start_phase, flow, (1.0 - breathing * breathing) / size])
-
-
-@inlined
-def sampling_laws(coupling, breathing, majorant, spread, anisotropy, start):
-    """Return `laws` of `tree`: the inner majorant is the densest the cloud ever is."""
-    densest = (2.0 * math.pi * (1.0 - breathing)) ** -1.5
-    return np.array([majorant * coupling * densest, 1.0 / majorant, spread, anisotropy, start])
+    state = Breathing(breathing, start_phase, flow, (1.0 - breathing * breathing) / size)
+    return laws, state, np.empty((DEPTH, 15)), np.empty(DEPTH, np.int64)
 
 
 @kernel
@@ -176,9 +203,7 @@ def estimate(values, nodes, radius, radial, tangential, time, physics, choices, 
     -------
     bool, False if a realization exceeded the budget
     """
-    stack, places = np.empty((DEPTH, 15)), np.empty(DEPTH, np.int64)
-    state = frozen_state(physics[1], physics[2])
-    laws = sampling_laws(physics[0], physics[1], choices[0], choices[1], choices[2], physics[3])
+    laws, state, stack, places = prepared(physics, choices)
     for k in range(values.size):
         values[k], nodes[k] = tree(
             radius, radial, tangential, time, laws, state, stack, places, max_nodes, stream
@@ -214,13 +239,11 @@ def beyond(values, nodes, threshold, time, physics, choices, max_nodes, energy, 
     ----------
     energy : bool, multiply by the energy (r**2 + c**2) / 2 of the probe
     """
-    stack, places = np.empty((DEPTH, 15)), np.empty(DEPTH, np.int64)
-    state = frozen_state(physics[1], physics[2])
-    laws = sampling_laws(physics[0], physics[1], choices[0], choices[1], choices[2], physics[3])
-    phi = 2.0 * time + physics[2]
-    size = 1.0 + physics[1] * math.sin(phi)
-    flow = physics[1] * math.cos(phi) / size
-    width = math.sqrt((1.0 - physics[1] ** 2) / size)
+    laws, state, stack, places = prepared(physics, choices)
+    phi = 2.0 * time + state.phase
+    size = 1.0 + state.amplitude * math.sin(phi)
+    flow = state.amplitude * math.cos(phi) / size
+    width = math.sqrt((1.0 - state.amplitude**2) / size)
     for k in range(values.size):
         radius, weight = speed_beyond(threshold, stream)
         radial = flow * radius + width * normal(stream)

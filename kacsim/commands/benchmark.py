@@ -10,6 +10,6 @@ def add(parser):
 
 def run(arguments):
     """Print the measurements of the kernels."""
-    from kacsim.kernels import benchmark
+    from kacsim.jobs import benchmark
 
     benchmark.run(arguments.repeats)

@@ -44,6 +44,11 @@ def published():
     return files.read_yaml(ROOT / "reports" / "published.yaml")
 
 
+def published_of(names):
+    """Return claim id -> published entry of those that belong to one of some items."""
+    return {key: entry for key, entry in published().items() if shows(entry, names)}
+
+
 def shows(entry, names):
     """Tell whether a published entry belongs to one of some items."""
     return not {entry["item"], *entry.get("also", ())}.isdisjoint(names)
@@ -63,5 +68,5 @@ def reduced(name, samples, settings):
     xarray.Dataset with attributes ``settings`` and ``published`` (claim id -> value)
     """
     dataset = load(name).reduce(samples, settings)
-    values = {key: entry["value"] for key, entry in published().items() if shows(entry, (name,))}
+    values = {key: entry["value"] for key, entry in published_of((name,)).items()}
     return dataset.assign_attrs(settings=settings, published=values)

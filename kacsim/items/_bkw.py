@@ -1,53 +1,55 @@
-"""The eight figures of the BKW mode: Algorithm 2 or 3, against time or along an axis."""
+"""The eight figures of the BKW mode: Algorithm 2 or 3, against time or along an axis.
+
+The published figures and those with oversampling differ by their settings alone.
+"""
 
 from kacsim.items import _probes
 from kacsim.items._lazy import bkw, np, store
 
-EXACT = {"bkw": "density", "bkw_fraction": "fraction"}
-FIRST = {"bkw": "speed", "bkw_fraction": "threshold"}
-N_FINE = 200
+AXIS = {"bkw": "speed", "bkw_fraction": "threshold"}
 SYMBOL = {"speed": "c", "threshold": "c_0"}
+N_FINE = 200
 
 
 def cases_by_size(sampler, settings):
     """Return size -> case, the probes being a grid of the first axis by time."""
-    axis = FIRST[sampler]
+    axis = AXIS[sampler]
     grid = {axis: settings[axis], "time": settings["time"]}
     common = {"oversampling": settings["oversampling"], "max_nodes": settings["max_nodes"]}
     return {size: _probes.case(settings, sampler, size, **grid, **common) for size in _probes.SIZES}
 
 
+def cases(sampler, settings):
+    """Return the probes at the published and at the large number of realizations."""
+    return list(cases_by_size(sampler, settings).values())
+
+
 def reduce(sampler, samples, settings):
-    """Return the estimates at all probes beside the exact values."""
-    axis = FIRST[sampler]
+    """Return the estimates with errors beside the exact values, at all probes and between them."""
+    axis = AXIS[sampler]
     first, time = np.array(settings[axis], float)[:, None], np.array(settings["time"], float)
-    factor = np.broadcast_to(
-        bkw.maxwellian(first) if sampler == "bkw" else 1.0, (first.size, time.size)
-    )
-    exact = getattr(bkw, EXACT[sampler])(first, time)
+    law, unit = (bkw.density, bkw.maxwellian) if sampler == "bkw" else (bkw.fraction, np.ones_like)
+    factor = np.broadcast_to(unit(first), (first.size, time.size))
     axes = {axis: settings[axis], "time": settings["time"]}
-    table = _probes.table(samples, cases_by_size(sampler, settings), axes, factor, exact)
-    law, described = getattr(bkw, EXACT[sampler]), store.described
+    found = cases_by_size(sampler, settings)
+    table = _probes.table(samples, found, axes, factor, law(first, time))
     fine_first = np.linspace(min(settings[axis]), max(settings[axis]), N_FINE)
     fine_time = np.linspace(min(settings["time"]), max(settings["time"]), N_FINE)
-    return table.assign(
-        curve_time=described(law(first, fine_time), (axis, "fine_time"), "exact, all times"),
-        **{
-            f"curve_{axis}": described(
-                law(fine_first[:, None], time), (f"fine_{axis}", "time"), "exact, along the axis"
-            )
-        },
-    ).assign_coords(
-        {"fine_time": ("fine_time", fine_time), f"fine_{axis}": (f"fine_{axis}", fine_first)}
+    described, fine_axis = store.described, f"fine_{axis}"
+    against_time = described(law(first, fine_time), (axis, "fine_time"), "exact, all times")
+    along_axis = described(
+        law(fine_first[:, None], time), (fine_axis, "time"), "exact, along the axis"
     )
+    curves = {"curve_time": against_time, f"curve_{axis}": along_axis}
+    places = {"fine_time": ("fine_time", fine_time), fine_axis: (fine_axis, fine_first)}
+    return table.assign(curves).assign_coords(places)
 
 
-def draw(sampler, dataset, along):
-    """Draw values and relative errors, one panel per value of the other axis."""
-    settings = dataset.attrs["settings"]
-    axis = FIRST[sampler]
-    plain = settings["oversampling"] == 1.0
-    critical = bkw.critical_time() if plain else None
+def draw(sampler, along, dataset):
+    """Draw values and relative errors along one axis, a panel per value of the other."""
+    axis = AXIS[sampler]
+    published = dataset.attrs["settings"]["oversampling"] == 1.0
+    critical = bkw.critical_time() if published else None
     quantity = "$f(c;t)\\,c_q^3$" if sampler == "bkw" else "fraction $|c| > c_0$"
     symbol = SYMBOL[axis]
     if along == "time":

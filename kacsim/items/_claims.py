@@ -5,8 +5,8 @@ import textwrap
 from kacsim import items
 from kacsim.items._lazy import np, plotting, store, verdict, xr
 
-TEXTS = ("claim", "text", "kind", "verdict", "evidence")
-NUMBERS = {
+TEXT_COLUMNS = ("claim", "text", "kind", "verdict", "evidence")
+NUMBER_COLUMNS = {
     "reference": "published or printed value",
     "measured": "measured value",
     "standard_error": "standard error of the measured value",
@@ -32,11 +32,33 @@ def findings(uses, samples, settings):
     return found
 
 
-def table(found):
-    """Return one row per finding with its statistic and verdict, judged as one family."""
-    published = items.published()
+def reduce(name, uses, samples, settings):
+    """Return the table of an item that has no findings but those of the items that it uses."""
+    return table((name, *uses), findings(uses, samples, settings))
+
+
+def table(names, found):
+    """Return one row per finding with its statistic and verdict, judged as one family.
+
+    Parameters
+    ----------
+    names : items that the findings are of
+    found : list of Finding
+
+    Raises
+    ------
+    ValueError
+        Names a finding whose published entry is another item's: its edits would go unseen here.
+    """
+    published = items.published_of(names)
+    for finding in found:
+        if finding.claim not in published:
+            raise ValueError(
+                f"claim = {finding.claim!r}: reports/published.yaml has no such entry "
+                f"of {' or '.join(names)}"
+            )
     rows = verdict.judge(found, published)
-    columns = {key: [] for key in (*TEXTS, *NUMBERS)}
+    columns = {key: [] for key in (*TEXT_COLUMNS, *NUMBER_COLUMNS)}
     own = ("claim", "evidence", "measured", "standard_error", "published_error", "corrected")
     for finding, row in zip(found, rows, strict=True):
         for key in own:
@@ -48,9 +70,11 @@ def table(found):
     described, dims = store.described, ("row",)
     variables = {
         key: described(np.array(columns[key], dtype=float), dims, text)
-        for key, text in NUMBERS.items()
+        for key, text in NUMBER_COLUMNS.items()
     }
-    variables |= {key: described(np.array(columns[key], dtype=object), dims, key) for key in TEXTS}
+    variables |= {
+        key: described(np.array(columns[key], dtype=object), dims, key) for key in TEXT_COLUMNS
+    }
     return xr.Dataset(variables, attrs={"family_error": verdict.FAMILY_ERROR})
 
 

@@ -4,9 +4,9 @@ import math
 
 from kacsim.cases import make_case
 from kacsim.items._lazy import estimate, exact, histogram, kac, np, store, xr
-from kacsim.kac.constants import RATE
 from kacsim.kac.samplers import STEPPED
 
+READINGS = ("nanbu_sequential", "nanbu_synchronous")  # of what the text says of Nanbu's partners
 FOLLOWED = ("engine", "keep_above")  # how a case follows its process, and what it keeps
 
 
@@ -117,11 +117,6 @@ def histogram_of(sample, bin_width, replicate=0):
     """Return (density, edges) of one replicate, its tails left out of the bars."""
     counts, edges = histogram.coarsen(sample["counts"].values[replicate], bin_width)
     return counts[1:-1] / counts.sum() / np.diff(edges), edges
-
-
-def mean_own_collisions(time, rate=RATE):
-    """Return the mean number of collisions of particle 1, rate * t."""
-    return rate * time
 
 
 def mean_of(dataset, variable, **place):

@@ -1,6 +1,7 @@
 """What the items of the Boltzmann paper share: probes, estimates with errors, two-row figures."""
 
 import math
+from typing import NamedTuple
 
 from kacsim.cases import make_case
 from kacsim.items._lazy import np, plotting, store, xr
@@ -20,16 +21,30 @@ def case(settings, sampler, size="published", **parameters):
     )
 
 
-def summary(sample, case_):
-    """Return (mean, standard error, variance of one realization, recursion) at every probe.
+class Summary(NamedTuple):
+    """What realizations say at every probe, before any factor; each is float64[first, time].
 
-    Each is float64[first, time]; values are those of the realizations, before any factor.
+    Attributes
+    ----------
+    mean, error : of the realizations
+    variance : of one realization
+    nodes : mean recursion
     """
+
+    mean: object
+    error: object
+    variance: object
+    nodes: object
+
+
+def summary(sample, case_):
+    """Return the Summary of a sample."""
     n = case_.n_draws * case_.n_replicates
     mean = sample["mean"].mean("replicate").values
     square = sample["mean_square"].mean("replicate").values
     variance = np.maximum(0.0, square - mean**2) * n / max(1, n - 1)
-    return mean, np.sqrt(variance / n), variance, sample["nodes"].mean("replicate").values
+    nodes = sample["nodes"].mean("replicate").values
+    return Summary(mean, np.sqrt(variance / n), variance, nodes)
 
 
 def table(samples, cases, axes, factor, exact, places=None):
@@ -115,7 +130,7 @@ def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):
     ----------
     along, panel : names of the x axis and of the axis with one panel per value
     titles : list of panel titles
-    critical : float or list per panel, times from which the bars are no standard errors
+    critical : float, time from which the bars are no standard errors, or None
     """
     figure, axes = plotting.panels(2, dataset.sizes[panel], share_y=False)
     count = dataset.sizes[panel]
@@ -139,13 +154,13 @@ def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):
         low.set_yscale("log")
         low.set_xlabel(x_label)
         low.set_ylabel("relative error")
-        _mark(top, low, critical, k, value, along)
+        _mark(top, low, critical, value, along)
     axes[0].legend()
     plotting.legends_above(axes[count : count + 1], share=0.2, ncols=2)
     return figure
 
 
-def _mark(top, low, critical, k, value, along):
+def _mark(top, low, critical, value, along):
     """Mark where the variance is infinite: a shaded range of times, or a sentence."""
     if critical is None:
         return

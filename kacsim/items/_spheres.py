@@ -6,7 +6,7 @@ from kacsim.cases import make_case
 from kacsim.items._lazy import estimate, np, slope, techniques_exact
 
 LATTICE_BLOCK = 5  # neighbouring M whose errors may depend on each other
-GENERATORS = ("good", "exhausted", "congruential")
+PSEUDORANDOM = ("good", "exhausted", "congruential")
 MANY = ("lattice", "random", "sobol")
 
 
@@ -37,7 +37,7 @@ def cases(settings):
         )
     }
     shown = [settings["shown_dimension"]], [edge ** settings["shown_dimension"] for edge in edges]
-    for name, n_replicates in zip(GENERATORS, size, strict=True):
+    for name, n_replicates in zip(PSEUDORANDOM, size, strict=True):
         found[name] = _points(settings, name, *shown, n_replicates)
     powers = [2**k for k in range(settings["first_power"], settings["last_power"] + 1)]
     many = settings["dimension"], powers, settings["many_n_replicates"]

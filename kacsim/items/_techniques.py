@@ -4,14 +4,15 @@ import math
 
 from kacsim.cases import make_case
 from kacsim.items._lazy import estimate, flux, np, special
+from kacsim.techniques.constants import NUMBER, POWERS
+from kacsim.techniques.samplers import GAS_NAMES
 
-NAMES = {
+LAW_TITLES = {
     "kac_initial": "$f_0$ of the Kac paper",
     "exponential": "exponential",
     "ramp": "ramp (1 + v)",
     "triangle": "triangle",
 }
-GAS = ("density", "temperature", "drift", "half_width", "step")
 
 
 def case(settings, sampler, **parameters):
@@ -22,7 +23,7 @@ def case(settings, sampler, **parameters):
 
 def gas_case(settings, sampler, **parameters):
     """Return the case of particles that enter a cuboid."""
-    return case(settings, sampler, **({key: settings[key] for key in GAS} | parameters))
+    return case(settings, sampler, **({key: settings[key] for key in GAS_NAMES} | parameters))
 
 
 def distance(counts):
@@ -48,28 +49,29 @@ def binned(counts, n_bins):
     return grouped / counts.sum(), starts / counts.size
 
 
-def z_of(mean, expected):
-    """Return z of an estimate."""
-    return (mean.value - expected) / mean.standard_error
+def mean_of_power(sample, power):
+    """Return the mean of v to a power in every replicate."""
+    return sample["moment"].values[..., POWERS.index(power)]
 
 
-def per_step(sample, what=0):
-    """Return one sum per step of each replicate: float64[replicate, face]."""
+def per_step(sample):
+    """Return the particles per step of each replicate: float64[replicate, face]."""
     steps = sample["steps"].values.sum(axis=-1)
-    return sample["sum"].values[..., what] / steps
+    return sample["sum"].values[..., NUMBER] / steps
 
 
-def face_means(sample, n_particles, what):
+def face_means(sample, what):
     """Return mean over particles of a summed quantity by face, with errors over replicates."""
     sums = sample["sum"].values
-    ratio = sums[..., what] / np.maximum(1.0, sums[..., n_particles])
+    ratio = sums[..., what] / np.maximum(1.0, sums[..., NUMBER])
     return [estimate.of_replicates(column) for column in ratio.T]
 
 
-def face_rates(settings):
+def numbers_per_step(settings):
     """Return float64[6], mean particles per face and step."""
-    rates = flux.face_rates(*(settings[key] for key in GAS[:4]))
-    return rates * settings["step"]
+    state = {key: settings[key] for key in GAS_NAMES}
+    step = state.pop("step")
+    return flux.face_rates(**state) * step
 
 
 def speed_law(settings, edges, face):

@@ -6,7 +6,7 @@ from kacsim.cases import make_case
 from kacsim.items import _trap
 from kacsim.items._lazy import np, plotting, store, xr
 
-SAMPLERS = {"trap": "density_radius", "trap_fraction": "fraction_radius"}
+RADIUS_KEYS = {"trap": "density_radius", "trap_fraction": "fraction_radius"}
 
 
 def problems(settings):
@@ -19,7 +19,7 @@ def problems(settings):
 def _grid(settings):
     """Return (sampler, place of the turn) -> case: fewer realizations of larger trees."""
     found = {}
-    for sampler, key in SAMPLERS.items():
+    for sampler, key in RADIUS_KEYS.items():
         for k, (turn, n_draws) in enumerate(
             zip(settings["turn"], settings["n_draws"], strict=True)
         ):
@@ -73,7 +73,7 @@ def reduce(samples, settings):
         "coverage": "share of batches whose bar of one sigma covers the mean of the others",
     }
     turns = settings["turn"]
-    labels = [(sampler, radius) for sampler, key in SAMPLERS.items() for radius in settings[key]]
+    labels = [(sampler, radius) for sampler, key in RADIUS_KEYS.items() for radius in settings[key]]
     tables = {name: np.full((len(labels), len(turns)), np.nan) for name in texts}
     for (sampler, k), case in _grid(settings).items():
         rows = [row for row, label in enumerate(labels) if label[0] == sampler]

@@ -2,7 +2,7 @@
 
 from kacsim.items._lazy import bkw, np, plotting, store, xr
 
-N_POINTS = 241
+N_FINE = 241
 
 
 def cases(settings):
@@ -12,7 +12,7 @@ def cases(settings):
 
 def reduce(samples, settings):
     """Return f along an axis at every time, and at equilibrium."""
-    velocity = np.linspace(-settings["largest_speed"], settings["largest_speed"], N_POINTS)
+    velocity = np.linspace(-settings["largest_speed"], settings["largest_speed"], N_FINE)
     times = np.array(settings["time"], dtype=float)
     described = store.described
     return xr.Dataset(

@@ -1,20 +1,9 @@
 """Fig. 4 of the Boltzmann paper: f along an axis at two times, by Algorithm 2."""
 
+import functools
+
 from kacsim.items import _bkw
 
-SAMPLER = "bkw"
-
-
-def cases(settings):
-    """Return the probes at the published and at the large number of realizations."""
-    return list(_bkw.cases_by_size(SAMPLER, settings).values())
-
-
-def reduce(samples, settings):
-    """Return the estimates with errors beside the exact values."""
-    return _bkw.reduce(SAMPLER, samples, settings)
-
-
-def draw(dataset):
-    """Draw values and relative errors."""
-    return _bkw.draw(SAMPLER, dataset, "speed")
+cases = functools.partial(_bkw.cases, "bkw")
+reduce = functools.partial(_bkw.reduce, "bkw")
+draw = functools.partial(_bkw.draw, "bkw", "speed")

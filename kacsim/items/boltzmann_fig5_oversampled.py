@@ -1,20 +1,9 @@
 """Study: Fig. 5 of the Boltzmann paper with oversampling, so that its bars are standard errors."""
 
+import functools
+
 from kacsim.items import _bkw
 
-SAMPLER = "bkw_fraction"
-
-
-def cases(settings):
-    """Return the probes at the published and at the large number of realizations."""
-    return list(_bkw.cases_by_size(SAMPLER, settings).values())
-
-
-def reduce(samples, settings):
-    """Return the estimates with errors beside the exact values."""
-    return _bkw.reduce(SAMPLER, samples, settings)
-
-
-def draw(dataset):
-    """Draw values and relative errors."""
-    return _bkw.draw(SAMPLER, dataset, "time")
+cases = functools.partial(_bkw.cases, "bkw_fraction")
+reduce = functools.partial(_bkw.reduce, "bkw_fraction")
+draw = functools.partial(_bkw.draw, "bkw_fraction", "time")

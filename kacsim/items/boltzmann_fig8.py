@@ -2,7 +2,7 @@
 
 from kacsim.items._lazy import np, plotting, store, trap, xr
 
-N_TIMES, N_POINTS = 181, 161
+N_TIMES, N_FINE = 181, 161
 
 
 def cases(settings):
@@ -14,7 +14,7 @@ def reduce(samples, settings):
     """Return density and energies over one period of the trap."""
     turns = np.linspace(0.0, 1.0, N_TIMES)
     phase = 2.0 * np.pi * turns
-    radius = np.linspace(-settings["largest_radius"], settings["largest_radius"], N_POINTS)
+    radius = np.linspace(-settings["largest_radius"], settings["largest_radius"], N_FINE)
     state = settings["breathing"], settings["start_phase"]
     described = store.described
     names = ("thermal", "potential", "flow")

@@ -3,7 +3,7 @@
 import math
 
 from kacsim.items import _claims, _probes, _trap
-from kacsim.items._lazy import bkw, extinction, np, trap, verdict
+from kacsim.items._lazy import bkw, estimate, extinction, np, trap, verdict
 
 USES = ("boltzmann_variance",)
 
@@ -72,12 +72,20 @@ def reduce(samples, settings):
     """Return one row per claim with its statistic and verdict."""
     grid = _grid(settings)
     findings = _findings(samples, grid, settings) + _claims.findings(USES, samples, settings)
-    return _claims.table(findings)
+    return _claims.table(("boltzmann_numbers", *USES), findings)
+
+
+draw = _claims.draw
 
 
 def _findings(samples, grid, settings):
-    def means(name):
+    def summary(name):
         return _probes.summary(samples[grid[name].id], grid[name])
+
+    def mean_of(name, j=0):
+        """Return (mean, standard error) at the first place and the j-th time."""
+        found = summary(name)
+        return float(found.mean[0, j]), float(found.error[0, j])
 
     def row(claim, measured, error=0.0, **others):
         return verdict.Finding(claim, float(measured), float(error), **others)
@@ -85,7 +93,8 @@ def _findings(samples, grid, settings):
     times = settings["time"]
     found = []
     for j, time in enumerate(times):
-        mean, _, variance, _ = (part[:, j] for part in means("rare"))
+        rare = summary("rare")
+        mean, variance = rare.mean[:, j], rare.variance[:, j]
         ratio = math.sqrt(variance[1] / variance[0]) * mean[0] / mean[1]
         spread = _ratio_error(samples[grid["rare"].id], j)
         fall = bkw.density(settings["common_speed"], time) / bkw.density(
@@ -101,12 +110,12 @@ def _findings(samples, grid, settings):
                     f"{settings['rare_speed']:g} c_q, where f is {fall:.2g} times smaller.",
                 )
             )
-        recursion, recursion_error = _recursion(samples[grid["rare"].id], 0, j)
+        recursion = _recursion(samples[grid["rare"].id], 0, j)
         found.append(
             row(
                 f"boltzmann_recursion_{j + 1}",
-                recursion,
-                recursion_error,
+                recursion.value,
+                recursion.standard_error,
                 printed=float(bkw.mean_recursion(time)),
                 evidence=f"t = {time:g}.",
             )
@@ -137,19 +146,17 @@ def _findings(samples, grid, settings):
         ),
         ("boltzmann_millionth", "millionth", _millionth(settings)),
     ):
-        mean, error = (float(part[0, 0]) for part in means(name)[:2])
+        mean, error = mean_of(name)
         found.append(row(claim, mean, error, printed=exact, evidence=f"Exact {exact:.3e}."))
     for i, majorant in enumerate(settings["majorant"]):
         found += _extinction(samples, grid, settings, i, majorant)
-    base = [part[0, 0] for part in means("choice_0")[:2]]
+    base, base_error = mean_of("choice_0")
     for k, name in ((1, "majorant"), (2, "spread"), (3, "anisotropy")):
-        other = [part[0, 0] for part in means(f"choice_{k}")[:2]]
-        found.append(
-            row(f"boltzmann_choice_{name}", other[0] - base[0], math.hypot(other[1], base[1]))
-        )
+        other, error = mean_of(f"choice_{k}")
+        found.append(row(f"boltzmann_choice_{name}", other - base, math.hypot(error, base_error)))
     for j, turn in enumerate(settings["turn"]):
         for name in ("mass", "energy"):
-            mean, error = (float(part[0, j]) for part in means(name)[:2])
+            mean, error = mean_of(name, j)
             found.append(
                 row(
                     f"boltzmann_{name}_{j + 1}",
@@ -159,14 +166,10 @@ def _findings(samples, grid, settings):
                 )
             )
     sample = samples[grid["places"].id]
-    inner, outer = _recursion(sample, 0, -1), _recursion(sample, 1, -1)
-    early = _recursion(sample, 0, 0)
-    found.append(
-        row("boltzmann_recursion_place", inner[0] - outer[0], math.hypot(inner[1], outer[1]))
-    )
-    found.append(
-        row("boltzmann_recursion_time", inner[0] - early[0], math.hypot(inner[1], early[1]))
-    )
+    inner = _recursion(sample, 0, -1)
+    for what, other in (("place", _recursion(sample, 1, -1)), ("time", _recursion(sample, 0, 0))):
+        gap = inner.minus(other)
+        found.append(row(f"boltzmann_recursion_{what}", gap.value, gap.standard_error))
     return found
 
 
@@ -181,9 +184,9 @@ def _millionth(settings):
 def _extinction(samples, grid, settings, i, majorant):
     case, time = grid["extinction"], settings["extinction_time"]
     sample = samples[case.id]
-    _, _, variance, _ = _probes.summary(sample, case)
+    variance = _probes.summary(sample, case).variance
     square = sample["mean_square"].values[i, 0] - sample["mean"].values[i, 0] ** 2
-    nodes, nodes_error = _recursion(sample, i, 0)
+    nodes = _recursion(sample, i, 0)
     return [
         verdict.Finding(
             f"boltzmann_extinction_variance_{i + 1}",
@@ -194,8 +197,8 @@ def _extinction(samples, grid, settings, i, majorant):
         ),
         verdict.Finding(
             f"boltzmann_extinction_recursion_{i + 1}",
-            nodes,
-            nodes_error,
+            nodes.value,
+            nodes.standard_error,
             printed=float(extinction.mean_recursion(time, majorant)),
             evidence=f"Raised frequency {majorant:g} αf₀.",
         ),
@@ -203,9 +206,8 @@ def _extinction(samples, grid, settings, i, majorant):
 
 
 def _recursion(sample, i, j):
-    """Return the mean recursion at a probe and its standard error, from the replicates."""
-    nodes = sample["nodes"].values[i, j]
-    return float(nodes.mean()), float(nodes.std(ddof=1) / math.sqrt(nodes.size))
+    """Return the mean recursion at a probe, from the replicates."""
+    return estimate.of_replicates(sample["nodes"].values[i, j])
 
 
 def _largest_spread(sample):
@@ -224,8 +226,3 @@ def _ratio_error(sample, j):
         relative = np.sqrt(np.maximum(0.0, s - m**2)) / m
         ratios.append(relative[1] / relative[0])
     return math.sqrt((n - 1) / n * np.sum((np.array(ratios) - np.mean(ratios)) ** 2))
-
-
-def draw(dataset):
-    """Draw the statistic of every claim, symbols by verdict."""
-    return _claims.draw(dataset)

@@ -5,7 +5,7 @@ import math
 from kacsim.cases import make_case
 from kacsim.items._lazy import bkw, estimate, np, plotting, store, xr
 
-FINE = 41
+N_FINE = 41
 SCHEMES = ("everywhere", "early")
 
 
@@ -64,7 +64,7 @@ def reduce(samples, settings):
         found = _product(samples[case.id], times[j])
         product[place], error[place] = found.value, found.standard_error
         exact[place] = predicted(times[j], ms[k], onsets[i])
-    fine = np.linspace(1.0, settings["largest_oversampling"], FINE)
+    fine = np.linspace(1.0, settings["largest_oversampling"], N_FINE)
     curve = np.array([[[predicted(t, m, onset) for m in fine] for t in times] for onset in onsets])
     described, three, two = store.described, ("scheme", "time", "oversampling"), ("scheme", "time")
     return xr.Dataset(

@@ -46,7 +46,7 @@ def cases(settings):
 
 
 def reduce(samples, settings):
-    """Return measured and exact fourth nanbu_babovsky, and the collisions that Poisson spares."""
+    """Return measured and exact fourth moments, and the collisions that Poisson spares."""
     by_n = _moments(samples, _particle_grid(settings), ALGORITHMS, settings["n_particles"])
     by_step = _moments(samples, _step_grid(settings), STEPPED, settings["time_step"])
     described, variables = store.described, {}

@@ -6,7 +6,7 @@ from kacsim.cases import make_case
 from kacsim.items._lazy import np, plotting, store, xr
 from kacsim.kac.constants import MEAN_ENERGY
 
-NUMBERS = ("mean", "error", "spread", "least", "most")
+SUMMARY = ("mean", "error", "spread", "least", "most")
 
 
 def _case(settings, n_particles, tolerance):
@@ -55,7 +55,7 @@ def reduce(samples, settings):
         ("n_", "tolerance_"), _grids(settings), ("n_particles", "tolerance"), strict=True
     ):
         table = np.array([_summary(samples[case.id], case) for case in grid])
-        for k, name in enumerate(NUMBERS):
+        for k, name in enumerate(SUMMARY):
             variables[prefix + name] = described(table[:, k], (dim,), name, "steps")
         variables[prefix + "predicted"] = described(
             [predicted_steps(c.parameters["n_particles"], c.parameters["tolerance"]) for c in grid],

@@ -4,13 +4,11 @@ from kacsim.items import _kac
 from kacsim.items._lazy import estimate, plotting, store, verdict
 from kacsim.kac.samplers import TITLES
 
-READINGS = ("nanbu_sequential", "nanbu_synchronous")
-
 
 def _grid(settings):
     return {
         (r, s): _kac.velocity_case(settings, reading, settings["n_particles"], step)
-        for r, reading in enumerate(READINGS)
+        for r, reading in enumerate(_kac.READINGS)
         for s, step in enumerate(settings["time_step"])
     }
 
@@ -24,12 +22,12 @@ def reduce(samples, settings):
     """Return the histogram of the first replicate, and TVN over all of them."""
     grid = _grid(settings)
     dims = ("reading", "time_step")
-    coords = {"reading": READINGS, "time_step": settings["time_step"]}
+    coords = {"reading": _kac.READINGS, "time_step": settings["time_step"]}
     table = _kac.tvn_table(samples, grid, dims, coords, settings)
     width = settings["bin_width"]
     bars = [
         [_kac.histogram_of(samples[grid[r, s].id], width)[0] for s in range(len(coords[dims[1]]))]
-        for r in range(len(READINGS))
+        for r in range(len(_kac.READINGS))
     ]
     edges = _kac.target(settings, width)[1]
     return table.assign(
@@ -42,8 +40,8 @@ def claims(dataset):
     small, large = (float(step) for step in dataset.time_step)
     found = []
     for claim, step in (("kac_fig1_small_step", small), ("kac_fig1_large_step", large)):
-        mean, spread = _tvn(dataset, READINGS[0], step)
-        other, _ = _tvn(dataset, READINGS[1], step)
+        mean, spread = _tvn(dataset, _kac.READINGS[0], step)
+        other, _ = _tvn(dataset, _kac.READINGS[1], step)
         found.append(
             verdict.Finding(
                 claim,
@@ -53,8 +51,8 @@ def claims(dataset):
                 evidence=f"Synchronous reading: {other.value:.4f} ± {other.standard_error:.4f}.",
             )
         )
-    sequential, spread = _tvn(dataset, READINGS[0], large)
-    synchronous, _ = _tvn(dataset, READINGS[1], large)
+    sequential, spread = _tvn(dataset, _kac.READINGS[0], large)
+    synchronous, _ = _tvn(dataset, _kac.READINGS[1], large)
     reading = verdict.Finding(
         "kac_41_reading",
         dataset.attrs["published"]["kac_fig1_large_step"],
@@ -77,9 +75,9 @@ def draw(dataset):
     figure, axes = plotting.panels(1, dataset.sizes["time_step"], share_y=True)
     for axis, step in zip(axes, dataset.time_step.values, strict=True):
         here = dataset.sel(time_step=step)
-        for r, reading in enumerate(READINGS):
+        for r, reading in enumerate(_kac.READINGS):
             mean, _ = _tvn(dataset, reading, step)
-            label = f"{TITLES[reading]}\nTVN {plotting.pm(mean)}"
+            label = f"{TITLES[reading]}\nTVN {plotting.with_error(mean)}"
             density = here.density.sel(reading=reading)
             plotting.bars(axis, here.edge, density, r, label, fill=r == 0)
         plotting.solution(axis, dataset.attrs["settings"]["time"])

@@ -4,7 +4,6 @@ from kacsim.items import _kac
 from kacsim.items._lazy import estimate, histogram, np, plotting, store, verdict, xr
 from kacsim.kac.samplers import TITLES
 
-READINGS = ("nanbu_sequential", "nanbu_synchronous")
 REFERENCES = ("bird", "poisson")
 DIMS = ("reading", "n_particles", "time_step")
 
@@ -12,7 +11,7 @@ DIMS = ("reading", "n_particles", "time_step")
 def _grid(settings):
     return {
         (r, n, s): _kac.velocity_case(settings, reading, n_particles, step)
-        for r, reading in enumerate(READINGS)
+        for r, reading in enumerate(_kac.READINGS)
         for n, n_particles in enumerate(settings["n_particles"])
         for s, step in enumerate(settings["time_step"])
     }
@@ -34,7 +33,7 @@ def cases(settings):
 def reduce(samples, settings):
     """Return mean TVN with errors, of Nanbu, of the references and of a standard normal."""
     coords = {
-        "reading": READINGS,
+        "reading": _kac.READINGS,
         "n_particles": settings["n_particles"],
         "time_step": settings["time_step"],
     }
@@ -115,7 +114,7 @@ def claims(dataset):
 
 def _gain(dataset, n):
     """Return the fall of the mean TVN from the largest step to the smallest."""
-    here = dataset.isel(bin_width=0).sel(reading=READINGS[0], n_particles=n)
+    here = dataset.isel(bin_width=0).sel(reading=_kac.READINGS[0], n_particles=n)
     large, small = (
         _kac.mean_of(here, "tvn", time_step=step)
         for step in (float(dataset.time_step.max()), float(dataset.time_step.min()))
@@ -125,10 +124,10 @@ def _gain(dataset, n):
 
 def draw(dataset):
     """Draw TVN against k, one panel per reading."""
-    figure, axes = plotting.panels(1, len(READINGS), share_y=True)
+    figure, axes = plotting.panels(1, len(_kac.READINGS), share_y=True)
     here = dataset.isel(bin_width=0)
     halvings = np.log2(dataset.attrs["settings"]["time"] / dataset.time_step.values)
-    for axis, reading in zip(axes, READINGS, strict=True):
+    for axis, reading in zip(axes, _kac.READINGS, strict=True):
         for k, n in enumerate(dataset.n_particles.values):
             line = here.sel(reading=reading, n_particles=n)
             plotting.points(axis, halvings, line.tvn, line.tvn_error, k, f"$N$ = {n}")

@@ -4,14 +4,14 @@ from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, np, plotting, verdict
 from kacsim.kac.samplers import TITLES
 
-ALGORITHMS = ("nanbu_sequential", "bird", "poisson", "poisson_printed")
+COMPARED = ("nanbu_sequential", "bird", "poisson", "poisson_printed")
 DIMS = ("algorithm", "n_particles")
 
 
 def _grid(settings):
     return {
         (a, n): _kac.velocity_case(settings, algorithm, n_particles, settings["time_step"])
-        for a, algorithm in enumerate(ALGORITHMS)
+        for a, algorithm in enumerate(COMPARED)
         for n, n_particles in enumerate(settings["n_particles"])
     }
 
@@ -23,7 +23,7 @@ def cases(settings):
 
 def reduce(samples, settings):
     """Return mean TVN and fourth moments with their errors."""
-    coords = {"algorithm": ALGORITHMS, "n_particles": settings["n_particles"]}
+    coords = {"algorithm": COMPARED, "n_particles": settings["n_particles"]}
     return _kac.tvn_table(samples, _grid(settings), DIMS, coords, settings)
 
 
@@ -101,7 +101,7 @@ def draw(dataset):
     """Draw TVN against N with the noise floor."""
     figure, (axis,) = plotting.panels(1, 1)
     here = dataset.isel(bin_width=0)
-    for k, algorithm in enumerate(ALGORITHMS):
+    for k, algorithm in enumerate(COMPARED):
         line = here.sel(algorithm=algorithm)
         label = TITLES[algorithm]
         plotting.points(axis, line.n_particles, line.tvn, line.tvn_error, k, label)

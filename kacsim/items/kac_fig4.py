@@ -4,18 +4,18 @@ from kacsim.items import _kac
 from kacsim.items._lazy import estimate, plotting, store
 from kacsim.kac.samplers import TITLES
 
-ALGORITHMS = ("bird", "poisson")
+COMPARED = ("bird", "poisson")
 
 
 def cases(settings):
     """Return both algorithms."""
-    return [_kac.velocity_case(settings, name, settings["n_particles"]) for name in ALGORITHMS]
+    return [_kac.velocity_case(settings, name, settings["n_particles"]) for name in COMPARED]
 
 
 def reduce(samples, settings):
     """Return the histogram of the first replicate, and TVN over all of them."""
     grid = {(a,): case for a, case in enumerate(cases(settings))}
-    table = _kac.tvn_table(samples, grid, ("algorithm",), {"algorithm": ALGORITHMS}, settings)
+    table = _kac.tvn_table(samples, grid, ("algorithm",), {"algorithm": COMPARED}, settings)
     width = settings["bin_width"]
     bars = [_kac.histogram_of(samples[case.id], width)[0] for case in grid.values()]
     edges = _kac.target(settings, width)[1]
@@ -26,11 +26,11 @@ def reduce(samples, settings):
 
 def draw(dataset):
     """Draw one panel per algorithm with eq. (8)."""
-    figure, axes = plotting.panels(1, len(ALGORITHMS), share_y=True)
-    for k, (axis, algorithm) in enumerate(zip(axes, ALGORITHMS, strict=True)):
+    figure, axes = plotting.panels(1, len(COMPARED), share_y=True)
+    for k, (axis, algorithm) in enumerate(zip(axes, COMPARED, strict=True)):
         here = dataset.isel(bin_width=0).sel(algorithm=algorithm)
         mean = estimate.Mean(float(here.tvn), float(here.tvn_error))
-        plotting.bars(axis, here.edge, here.density, k, f"TVN {plotting.pm(mean)}")
+        plotting.bars(axis, here.edge, here.density, k, f"TVN {plotting.with_error(mean)}")
         plotting.solution(axis, dataset.attrs["settings"]["time"])
         axis.set_title(TITLES[algorithm])
         plotting.velocity_axis(axis)

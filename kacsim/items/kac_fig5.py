@@ -4,7 +4,7 @@ from kacsim.items import _kac
 from kacsim.items._lazy import estimate, exact, histogram, np, plotting, store, tail, verdict, xr
 from kacsim.kac.samplers import TITLES
 
-ALGORITHMS = ("bird", "poisson")
+COMPARED = ("bird", "poisson")
 VARIABLES = ("tail_share", "tail_low", "tail_high")
 
 
@@ -13,7 +13,7 @@ def cases(settings):
     above = settings["tail_above"]
     return [
         _kac.velocity_case(settings, name, settings["n_particles"], keep_above=above)
-        for name in ALGORITHMS
+        for name in COMPARED
     ]
 
 
@@ -37,7 +37,7 @@ def reduce(samples, settings):
     }
     for k, name in enumerate(VARIABLES):
         variables[name] = described(shares[:, :, k], dims, name.replace("_", " ") + " of v_1 > x")
-    coords = {"algorithm": list(ALGORITHMS), "threshold": thresholds, "edge": edges}
+    coords = {"algorithm": list(COMPARED), "threshold": thresholds, "edge": edges}
     return xr.Dataset(variables, coords={key: (key, values) for key, values in coords.items()})
 
 
@@ -53,7 +53,7 @@ def claims(dataset):
     here = dataset.sel(threshold=x)
     exact_tail = float(here.tail_exact)
     means = {}
-    for algorithm in ALGORITHMS:
+    for algorithm in COMPARED:
         one = here.sel(algorithm=algorithm)
         n = int(one.n_draws)
         means[algorithm] = estimate.of_share(round(float(one.tail_share) * n), n)
@@ -74,10 +74,10 @@ def claims(dataset):
 def draw(dataset):
     """Draw the tail histograms, and the tail probabilities relative to eq. (8)."""
     settings = dataset.attrs["settings"]
-    figure, axes = plotting.panels(1, len(ALGORITHMS) + 1)
+    figure, axes = plotting.panels(1, len(COMPARED) + 1)
     grid = np.linspace(settings["tail_above"], 6.0, 200)
     scale = exact.survival(settings["tail_above"], settings["time"])
-    for k, algorithm in enumerate(ALGORITHMS):
+    for k, algorithm in enumerate(COMPARED):
         axis, here = axes[k], dataset.sel(algorithm=algorithm)
         plotting.bars(axis, here.edge, here.density, k, f"{int(here.n_kept):,} values")
         curve = exact.density(grid, settings["time"]) / scale

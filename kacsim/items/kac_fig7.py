@@ -3,8 +3,6 @@
 from kacsim.items import _corners
 from kacsim.items._lazy import np, plotting, store, xr
 
-N_POINTS = 4
-
 
 def cases(settings):
     """Return recorded runs of the corner points, N = 3."""
@@ -18,7 +16,7 @@ def reduce(samples, settings):
     part = float(sample["squared_sine"][0])
     corner = sample["corner"].values
     radius = float(np.linalg.norm(corner[0, 0]))
-    before = _points(radius)
+    before = _spread_points(radius)
     after = before.copy()
     pair = before[:, p] ** 2 + before[:, q] ** 2
     after[:, p], after[:, q] = np.sqrt(part * pair), np.sqrt((1.0 - part) * pair)
@@ -35,9 +33,9 @@ def reduce(samples, settings):
     )
 
 
-def _points(radius):
-    """Return fixed points spread over the octant, float64[N_POINTS, 3]."""
-    weights = np.array([[6, 2, 2], [2, 6, 2], [2, 2, 6], [1, 5, 4]], dtype=float)[:N_POINTS]
+def _spread_points(radius):
+    """Return four fixed points spread over the octant, float64[4, 3]."""
+    weights = np.array([[6, 2, 2], [2, 6, 2], [2, 2, 6], [1, 5, 4]], dtype=float)
     return radius * np.sqrt(weights / weights.sum(axis=1, keepdims=True))
 
 

@@ -109,7 +109,7 @@ def claims(dataset):
                 evidence="Error: spread of the extreme over the replicates.",
             )
         )
-    return [*found, _histogram_claim(dataset, n_draws), _energy_claim(dataset, settings)]
+    return [*found, _histogram_claim(dataset, n_draws), _energy_claim(dataset)]
 
 
 def _histogram_claim(dataset, n_draws):
@@ -124,7 +124,7 @@ def _histogram_claim(dataset, n_draws):
     )
 
 
-def _energy_claim(dataset, settings):
+def _energy_claim(dataset):
     """Test E = N: does it give the fourth moment that eq. (9) has at this N?"""
     moment = _kac.mean_of(dataset, "moment", energy="printed")
     return verdict.Finding(

@@ -3,9 +3,8 @@
 from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, xr
 
-EXACT = ("constant", "closer", "identity")
+WAYS = ("constant", "closer", "identity")
 LABELS = ("rejection, constant", "rejection, closer", "Gamma identity")
-ORDERS = (2, 4)
 
 
 def _cases(settings):
@@ -31,15 +30,15 @@ def reduce(samples, settings):
     """Return distances from f0, the second moment and uniforms per draw of each way."""
     tables, found = _cases(settings)
     n = settings["n_draws"] * settings["n_replicates"]
-    drawn = [samples[found[name].id] for name in EXACT]
+    drawn = [samples[found[name].id] for name in WAYS]
     table = samples[tables.id]
     counts = [sample["counts"].values.sum(axis=0) for sample in drawn]
     distances = [_techniques.distance(c) for c in counts]
     through = [_techniques.distance(c) for c in table["counts"].values.sum(axis=1)]
     uniforms = [estimate.of_replicates(sample["uniforms"].values) for sample in drawn]
-    squares = [estimate.of_replicates(sample["moment"].values[:, 1]) for sample in drawn]
-    of_tables = [estimate.of_replicates(row) for row in table["moment"].values[:, :, 1]]
-    predicted = [2.0 * techniques_exact.envelope_area("kac_initial", name) for name in EXACT[:2]]
+    squares = [estimate.of_replicates(_techniques.mean_of_power(sample, 2)) for sample in drawn]
+    of_tables = [estimate.of_replicates(row) for row in _techniques.mean_of_power(table, 2)]
+    predicted = [2.0 * techniques_exact.envelope_area("kac_initial", name) for name in WAYS[:2]]
     described, one, many = store.described, ("way",), ("n_table",)
     return xr.Dataset(
         {
@@ -67,7 +66,7 @@ def reduce(samples, settings):
             ),
             "floor": described(_techniques.median_distance(n), (), "median distance, exact draws"),
         },
-        coords={"way": list(EXACT), "n_table": settings["n_table"]},
+        coords={"way": list(WAYS), "n_table": settings["n_table"]},
     )
 
 
@@ -94,7 +93,7 @@ def draw(dataset):
     axes[0].set_xlabel("intervals of the table $N_t$ (right: no table)")
     axes[0].set_ylabel("distance of the draws from $f_0$")
     axes[0].legend()
-    place = np.arange(len(EXACT) + 1)
+    place = np.arange(len(WAYS) + 1)
     height = [float(dataset.table_uniforms[0]), *dataset.uniforms.values]
     axes[1].bar(place, height, color=plotting.COLOURS[:4], width=0.6)
     axes[1].plot(place[1:], dataset.predicted, "_", ms=30, color="black", label="2 × area")

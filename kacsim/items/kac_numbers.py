@@ -1,5 +1,7 @@
 """Every number and every checkable claim of the Kac paper: published, measured, verdict."""
 
+import functools
+
 from kacsim.items import _claims
 
 USES = (
@@ -13,17 +15,6 @@ USES = (
     "kac_tails",
 )
 
-
-def cases(settings):
-    """Return the cases of all items that the claims are about."""
-    return _claims.cases(USES, settings)
-
-
-def reduce(samples, settings):
-    """Return one row per claim with its statistic and verdict."""
-    return _claims.table(_claims.findings(USES, samples, settings))
-
-
-def draw(dataset):
-    """Draw the statistic of every claim, symbols by verdict."""
-    return _claims.draw(dataset)
+cases = functools.partial(_claims.cases, USES)
+reduce = functools.partial(_claims.reduce, "kac_numbers", USES)
+draw = _claims.draw

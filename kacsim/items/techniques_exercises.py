@@ -4,9 +4,9 @@ import math
 
 from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
-from kacsim.techniques.constants import flux_at_rest
+from kacsim.techniques.constants import SPEED_2, flux_at_rest
 
-METHODS = ("hits", "heights")
+AREA_WAYS = ("hits", "heights")
 LABELS = ("points below the curve", "mean height")
 BINS = 50
 
@@ -54,7 +54,7 @@ def reduce(samples, settings):
         | _gas(found["gas"], _cases(settings)["gas"], settings)
         | _area(found["area"], settings),
         coords={
-            "way": list(METHODS),
+            "way": list(AREA_WAYS),
             "points": settings["n_points"],
             "number": list(range(3)),
         },
@@ -65,7 +65,7 @@ def _exponential(sample, settings):
     """Exercise 1: x = -log(1 - y) / k."""
     counts = sample["counts"].values.sum(axis=0)
     share, edges = _techniques.binned(counts, BINS)
-    mean = estimate.of_replicates(sample["moment"].values[:, 0])
+    mean = estimate.of_replicates(_techniques.mean_of_power(sample, 1))
     gap = _techniques.distance(counts)
     described = store.described
     edges[-1] = 1.0 - 0.1 / counts.size  # the last bin has no end
@@ -85,7 +85,7 @@ def _gas(sample, case, settings):
     steps = sample["steps"].values[:, 0]
     rate = estimate.of_replicates(_techniques.per_step(sample)[:, 0])
     area = 4.0 * settings["half_width"][1] * settings["half_width"][2] * settings["step"]
-    square = _techniques.face_means(sample, 0, 2)[0]
+    square = _techniques.face_means(sample, SPEED_2)[0]
     speeds, edges = sample["speeds"].values[:, 0].sum(axis=0), sample["speed_edge"].values
     law = np.diff(np.append(-np.expm1(-(edges**2) / (2.0 * settings["temperature"])), 1.0))
     shares = [estimate.of_replicates(steps[:, k] / steps.sum(axis=-1)) for k in range(3)]
@@ -122,7 +122,7 @@ def _area(sample, settings):
     within = (np.abs(relative) <= wanted).mean(axis=1)
     last = [estimate.of_replicates(row) for row in sample["estimate"].values[:, :, -1]]
     described, at = store.described, ("way", "points")
-    predicted = [techniques_exact.area_error(settings["exponent"], m) ** 2 for m in METHODS]
+    predicted = [techniques_exact.area_error(settings["exponent"], m) ** 2 for m in AREA_WAYS]
     return {
         "area": described([m.value for m in last], ("way",), "mean of the areas, most points"),
         "area_error": described([m.standard_error for m in last], ("way",), "standard error"),
@@ -157,7 +157,7 @@ def claims(dataset):
     for k in range(3):
         exact = dataset.number_exact[k]
         found.append(row(f"techniques_exercise2_{k}", "number_share", exact, number=k))
-    for k, method in enumerate(METHODS):
+    for k, method in enumerate(AREA_WAYS):
         found += [
             row(f"techniques_exercise3_{method}", "area", dataset.area_exact, way=k),
             row(
@@ -195,7 +195,7 @@ def draw(dataset):
     axes[1].set_xlabel("normal velocity $v_n$")
     axes[1].set_ylabel("density")
     axes[1].set_title(f"exercise 2, $T$ = {temperature:g}")
-    for k in range(len(METHODS)):
+    for k in range(len(AREA_WAYS)):
         here = dataset.isel(way=k)
         plotting.points(axes[2], dataset.points, here.rms, here.rms_error, k, LABELS[k], line=False)
         n = dataset.points.values

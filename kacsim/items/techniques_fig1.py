@@ -14,9 +14,9 @@ from kacsim.items._lazy import (
 )
 from kacsim.techniques.constants import SUPPORT
 
-LAWS = ("kac_initial", "exponential", "ramp")
-SHOWN, COARSE = LAWS[0], 2  # the law and the place of the table that are drawn in full
-FINE = 20_001  # places in v where the error of a table is looked for
+TABULATED = ("kac_initial", "exponential", "ramp")
+SHOWN, COARSE = TABULATED[0], 2  # the law and the place of the table that are drawn in full
+N_FINE = 20_001  # places in v where the error of a table is looked for
 BINS = 60
 
 
@@ -24,7 +24,7 @@ def _cases(settings):
     tables = list(settings["n_table"])
     return {
         law: _techniques.case(settings, "inverse_transform", law=law, n_table=tables)
-        for law in LAWS
+        for law in TABULATED
     }
 
 
@@ -36,14 +36,14 @@ def cases(settings):
 def _worst(law, n_table):
     """Return (largest error in P of a table's law, P where it is)."""
     table = inverse_transform.law_table(law, n_table)
-    between = np.linspace(0.0, 1.0, max(3, FINE // n_table))[:-1]
+    between = np.linspace(0.0, 1.0, max(3, N_FINE // n_table))[:-1]
     places = (table[:-1, None] + np.diff(table)[:, None] * between).ravel()
     error = inverse_transform.table_error(law, table, places)
     k = int(np.argmax(np.abs(error)))
     return abs(float(error[k])), float(techniques_exact.CUMULATIVES[law](places[k]))
 
 
-def _at(law, n_table, u):
+def _error_at(law, n_table, u):
     """Return the error in P of a table's law where the exact cumulative probability is u."""
     table = inverse_transform.law_table(law, n_table)
     low, high = table[0], table[-1]
@@ -61,23 +61,23 @@ def reduce(samples, settings):
     exact probability there: its mean is known, and its error binomial.
     """
     sizes, n = settings["n_table"], settings["n_draws"] * settings["n_replicates"]
-    shape = (len(LAWS), len(sizes))
+    shape = (len(TABULATED), len(sizes))
     keys = ("distance", "exact", "deviation", "deviation_error", "deviation_exact")
     table = {key: np.empty(shape) for key in keys}
-    power = np.empty((3, len(LAWS)))
+    power = np.empty((3, len(TABULATED)))
     for i, case in enumerate(_cases(settings).values()):
         sample = samples[case.id]
         counts = sample["counts"].values.sum(axis=1)
         cells = counts.shape[-1]
         for j, size in enumerate(sizes):
-            table["exact"][i, j], u = _worst(LAWS[i], size)
+            table["exact"][i, j], u = _worst(TABULATED[i], size)
             edge = min(max(1, round(u * cells)), cells - 1)
             below = int(counts[j, :edge].sum())
             mean = estimate.of_share(below, n)
             table["distance"][i, j] = _techniques.distance(counts[j])
             table["deviation"][i, j] = mean.value - edge / cells
             table["deviation_error"][i, j] = mean.standard_error
-            table["deviation_exact"][i, j] = _at(LAWS[i], size, edge / cells)
+            table["deviation_exact"][i, j] = _error_at(TABULATED[i], size, edge / cells)
         clear = table["exact"][i] > 10.0 * table["deviation_error"][i]
         clear[:2] = True
         squares = (table["deviation"][i] ** 2)[clear]
@@ -90,7 +90,7 @@ def reduce(samples, settings):
     first = samples[_cases(settings)[SHOWN].id]
     coarse = min(COARSE, len(sizes) - 1)
     share, edges = _techniques.binned(first["counts"].values[coarse].sum(axis=0), BINS)
-    fine = np.linspace(*SUPPORT[SHOWN], FINE)
+    fine = np.linspace(*SUPPORT[SHOWN], N_FINE)
     last = estimate.of_share(round(float(first["last"].values[0].mean()) * n), n)
     described, dims = store.described, ("law", "n_table")
     texts = {
@@ -119,7 +119,7 @@ def reduce(samples, settings):
         "last": described(last.value, (), "share of draws in the last interval, first table"),
         "last_error": described(last.standard_error, (), "standard error"),
     }
-    return xr.Dataset(variables, coords={"law": list(LAWS), "n_table": sizes})
+    return xr.Dataset(variables, coords={"law": list(TABULATED), "n_table": sizes})
 
 
 def _line(n, squares, noise):
@@ -183,11 +183,11 @@ def _use(axis, dataset, grid, u=0.62):
 
 def _errors(axis, dataset):
     """Draw distances of the draws, and the exact errors of the tables, against N_t."""
-    for k, law in enumerate(LAWS):
+    for k, law in enumerate(TABULATED):
         here, colour = dataset.sel(law=law), plotting.COLOURS[k]
         axis.plot(dataset.n_table, here.distance, plotting.MARKERS[k], ms=4, color=colour)
-        power = plotting.pm(estimate.Mean(float(here.power), float(here.power_error)))
-        label = f"{_techniques.NAMES[law]}: {power}".replace("-", "−")
+        power = plotting.with_error(estimate.Mean(float(here.power), float(here.power_error)))
+        label = f"{_techniques.LAW_TITLES[law]}: {power}".replace("-", "−")
         axis.plot(dataset.n_table, here.exact, color=colour, lw=1, label=label)
     axis.axhline(float(dataset.floor), color="0.5", ls=":", lw=1.2, label="exact draws, median")
     axis.set_xscale("log", base=2)

@@ -4,13 +4,13 @@ from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
 from kacsim.techniques.constants import SUPPORT
 
-METHODS = (("kac_initial", "constant"), ("kac_initial", "closer"), ("triangle", "constant"))
+REJECTIONS = (("kac_initial", "constant"), ("kac_initial", "closer"), ("triangle", "constant"))
 LABELS = ("$f_0$, constant", "$f_0$, closer", "triangle, constant")
 
 
 def _cases(settings):
     found = [
-        _techniques.case(settings, "rejection", law=law, envelope=name) for law, name in METHODS
+        _techniques.case(settings, "rejection", law=law, envelope=name) for law, name in REJECTIONS
     ]
     table = _techniques.case(
         settings, "inverse_transform", law="kac_initial", n_table=list(settings["n_table"])
@@ -30,7 +30,7 @@ def reduce(samples, settings):
     n = settings["n_draws"] * settings["n_replicates"]
     drawn = [samples[case.id] for case in found]
     means = [estimate.of_replicates(sample["uniforms"].values) for sample in drawn]
-    predicted = [2.0 * techniques_exact.envelope_area(*method) for method in METHODS]
+    predicted = [2.0 * techniques_exact.envelope_area(*method) for method in REJECTIONS]
     distances = [_techniques.distance(sample["counts"].values.sum(axis=0)) for sample in drawn]
     through = estimate.of_replicates(samples[table.id]["uniforms"].values.ravel())
     described, one = store.described, ("way",)
@@ -50,7 +50,7 @@ def reduce(samples, settings):
                 "value, height and acceptance of trials",
             ),
         },
-        coords={"way": [" ".join(method) for method in METHODS]},
+        coords={"way": [" ".join(method) for method in REJECTIONS]},
     )
 
 
@@ -97,7 +97,7 @@ def draw(dataset):
         axis.set_ylabel("height of the trial point")
         axis.set_ylim(0.0, 0.62)
         axis.legend(loc="upper center", ncols=2, frameon=False)
-    place = np.arange(len(METHODS))
+    place = np.arange(len(REJECTIONS))
     plotting.points(
         axes[2], place, dataset.uniforms, dataset.uniforms_error, 0, "measured", line=False
     )
@@ -113,7 +113,7 @@ def draw(dataset):
         float(dataset.table_uniforms), color=plotting.COLOURS[2], ls="--", label="through a table"
     )
     axes[2].set_xticks(place, LABELS, fontsize=7.5)
-    axes[2].set_xlim(-0.5, len(METHODS) - 0.5)
+    axes[2].set_xlim(-0.5, len(REJECTIONS) - 0.5)
     axes[2].set_ylim(0.0, 1.2 * float(dataset.uniforms.max()))
     axes[2].set_ylabel("uniforms per accepted value")
     axes[2].legend(loc="upper right", markerscale=0.6)

@@ -4,11 +4,11 @@ import math
 
 from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, flux, np, plotting, store, verdict, xr
-from kacsim.techniques.constants import FACES
+from kacsim.techniques.constants import FACE, FACES, POSITION, SPEED, SPEED_2, VELOCITY
 
 SOURCES = ("injection", "outer_gas")
 LABELS = ("injected", "gas outside, moved")
-SHOWN = 12  # numbers of particles with a bar
+N_BARS = 12  # numbers of particles with a bar
 
 
 def _cases(settings):
@@ -34,26 +34,37 @@ def _normal(settings, face):
 
 
 def _of_source(sample, settings):
-    """Return what one source gives at every face, with errors over the replicates."""
+    """Return what one source gives at every face.
+
+    Returns
+    -------
+    dict of means (dict name -> list of Mean over the replicates), p_speed and p_number (p-values),
+    share[face, number], speeds[face, bin]
+    """
     faces = range(len(FACES))
     columns = [estimate.of_replicates(column) for column in _techniques.per_step(sample).T]
-    speed = _techniques.face_means(sample, 0, 1)
-    square = _techniques.face_means(sample, 0, 2)
+    speed = _techniques.face_means(sample, SPEED)
+    square = _techniques.face_means(sample, SPEED_2)
     numbers = np.arange(sample["steps"].shape[-1])
     share = sample["steps"].values / sample["steps"].values.sum(axis=-1, keepdims=True)
     variance = (share * numbers**2).sum(-1) - (share * numbers).sum(-1) ** 2
     ratio = [estimate.of_replicates(c) for c in (variance / (share * numbers).sum(-1)).T]
     edges = sample["speed_edge"].values
     speeds, steps = (sample[name].values.sum(axis=0) for name in ("speeds", "steps"))
-    means = _techniques.face_rates(settings)
+    means = _techniques.numbers_per_step(settings)
     poisson = [_poisson(means[face], numbers) for face in faces]
     p_speed = [
         _techniques.chi_squared(speeds[face], _techniques.speed_law(settings, edges, face))
         for face in faces
     ]
     p_number = [_techniques.chi_squared(steps[face], poisson[face]) for face in faces]
-    first = {"rate": columns, "speed": speed, "square": square, "fano": ratio}
-    return first, p_speed, p_number, steps / steps.sum(-1, keepdims=True), speeds
+    return {
+        "means": {"rate": columns, "speed": speed, "square": square, "fano": ratio},
+        "p_speed": p_speed,
+        "p_number": p_number,
+        "share": steps / steps.sum(-1, keepdims=True),
+        "speeds": speeds,
+    }
 
 
 def _poisson(mean, numbers):
@@ -69,6 +80,10 @@ def reduce(samples, settings):
     found, faces = _cases(settings), range(len(FACES))
     results = [_of_source(samples[found[name].id], settings) for name in SOURCES]
     described, dims = store.described, ("source", "face")
+
+    def both(key):
+        return np.array([result[key] for result in results])
+
     texts = {
         "rate": "particles per step",
         "speed": "mean normal velocity",
@@ -77,8 +92,8 @@ def reduce(samples, settings):
     }
     variables = {}
     for key, text in texts.items():
-        values = [[mean.value for mean in result[0][key]] for result in results]
-        errors = [[mean.standard_error for mean in result[0][key]] for result in results]
+        values = [[mean.value for mean in result["means"][key]] for result in results]
+        errors = [[mean.standard_error for mean in result["means"][key]] for result in results]
         variables[key] = described(values, dims, text)
         variables[f"{key}_error"] = described(errors, dims, "standard error")
     temperature = settings["temperature"]
@@ -86,28 +101,26 @@ def reduce(samples, settings):
     halves = [flux.half_moments(u, temperature, 2) for u in normal]
     gas = samples[found["outer_gas"].id]
     edges = gas["speed_edge"].values
-    weighted = _weighted(samples[found["weighted_particles"].id], settings)
+    weighted = _weighted(samples[found["weighted_particles"].id])
     first = gas["steps"].values[:, 0, 0] / gas["steps"].values[:, 0].sum(axis=-1)
     none = estimate.of_replicates(first)
     many = {
-        "rate_exact": (_techniques.face_rates(settings), "eq. (11.14) with its limits right"),
+        "rate_exact": (_techniques.numbers_per_step(settings), "eq. (11.14) with its limits right"),
         "speed_exact": ([flux.moment(1, u, temperature) for u in normal], "mean under v f(v)"),
         "speed_unweighted": ([h[1] / h[0] for h in halves], "mean under f(v), v > 0"),
         "square_exact": ([flux.moment(2, u, temperature) for u in normal], "mean under v f(v)"),
     }
     variables |= {key: described(v, ("face",), text) for key, (v, text) in many.items()}
     variables |= {
-        "p_speed": described([r[1] for r in results], dims, "p-value of the normal velocities"),
-        "p_number": described([r[2] for r in results], dims, "p-value of the numbers per step"),
-        "share": described(
-            np.array([r[3] for r in results]), (*dims, "number"), "steps by number of particles"
-        ),
+        "p_speed": described(both("p_speed"), dims, "p-value of the normal velocities"),
+        "p_number": described(both("p_number"), dims, "p-value of the numbers per step"),
+        "share": described(both("share"), (*dims, "number"), "steps by number of particles"),
         "share_exact": described(
             [_poisson(m, np.arange(gas["steps"].shape[-1])) for m in many["rate_exact"][0]],
             ("face", "number"),
             "eq. (11.15)",
         ),
-        "speeds": described(np.array([r[4] for r in results]), (*dims, "bin"), "particles by v_n"),
+        "speeds": described(both("speeds"), (*dims, "bin"), "particles by v_n"),
         "speed_edge": described(edges, ("bin",), "lower edge of the bin"),
         "kept": described(samples[found["injection"].id]["kept"].values, ("kept", "part"), "first"),
         "none": described(none.value, (), "share of steps without a particle, first face, gas"),
@@ -117,7 +130,7 @@ def reduce(samples, settings):
     return xr.Dataset(variables, coords={"source": list(SOURCES), "face": list(FACES)})
 
 
-def _weighted(sample, settings):
+def _weighted(sample):
     """Return the choice among weighted particles: p-value, and mean speeds chosen and expected."""
     speed = np.maximum(0.0, sample["velocity"].values[:, 0])
     lengths = sample["weight"].values * speed
@@ -179,10 +192,10 @@ def draw(dataset):
         relative, error = here.rate / dataset.rate_exact, here.rate_error / dataset.rate_exact
         plotting.points(axes[1], place + shift, relative, error, k, LABELS[k], line=False)
         face = here.isel(face=0)
-        number = np.arange(SHOWN)
+        number = np.arange(N_BARS)
         axes[2].plot(
             number + shift,
-            face.share.values[:SHOWN],
+            face.share.values[:N_BARS],
             plotting.MARKERS[k],
             ms=4,
             color=plotting.COLOURS[k],
@@ -197,8 +210,8 @@ def draw(dataset):
     axes[1].set_ylabel("particles per step / exact")
     plotting.legends_above([axes[1]], share=0.35)
     axes[2].plot(
-        np.arange(SHOWN),
-        dataset.share_exact.values[0, :SHOWN],
+        np.arange(N_BARS),
+        dataset.share_exact.values[0, :N_BARS],
         "_",
         ms=14,
         color="black",
@@ -234,14 +247,14 @@ def _geometry(axis, dataset, s):
         lw=1,
     )
     kept = dataset.kept.values
-    kept = kept[kept[:, 0] < 4][:80]
+    kept = kept[kept[:, FACE] < 4][:80]  # through the faces that are seen
     for k in range(2):
-        here = kept[(kept[:, 0].astype(int) // 2) == k]
+        here = kept[(kept[:, FACE].astype(int) // 2) == k]
         axis.quiver(
-            here[:, 1],
-            here[:, 2],
-            here[:, 4],
-            here[:, 5],
+            here[:, POSITION],
+            here[:, POSITION + 1],
+            here[:, VELOCITY],
+            here[:, VELOCITY + 1],
             color=plotting.COLOURS[k],
             angles="xy",
             scale_units="xy",

@@ -4,7 +4,7 @@ import math
 
 from kacsim.items import _spheres
 from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
-from kacsim.items._spheres import GENERATORS, MANY
+from kacsim.items._spheres import MANY, PSEUDORANDOM
 
 LABELS = ("Monte Carlo, good", "numbers run out", "congruential")
 MANY_LABELS = ("lattice", "Monte Carlo", "Sobol, scrambled")
@@ -24,19 +24,22 @@ def reduce(samples, settings):
     shown, dimensions = settings["shown_dimension"], settings["dimension"]
     first = settings["fit_from_edge"] ** shown
     error, edge = _spheres.lattice_errors(found["lattice"], shown)
-    rows, fits = [], [_spheres.fit_lattice(found["lattice"], shown, settings)]
-    for name in GENERATORS:
+    roots, root_errors = [], []
+    powers = [_spheres.fit_lattice(found["lattice"], shown, settings)[0]]
+    for name in PSEUDORANDOM:
         errors, n = _spheres.errors_of(found[name], shown)
-        rows.append(_spheres.rms(errors))
-        fits.append(_spheres.fit(errors, n, first))
+        root, root_error = _spheres.rms(errors)
+        roots.append(root)
+        root_errors.append(root_error)
+        powers.append(_spheres.fit(errors, n, first)[0])
     slopes, many = np.empty((2, len(MANY), len(dimensions))), []
     level = np.empty(len(dimensions))
     for i, d in enumerate(dimensions):
         lattice, level[i] = _spheres.fit_lattice(found["lattice"], d, settings)
         parts = [lattice]
         for name in MANY[1:]:
-            errors, powers = _spheres.errors_of(found[name], d)
-            parts.append(_spheres.fit(errors, powers, powers[0])[0])
+            errors, n = _spheres.errors_of(found[name], d)
+            parts.append(_spheres.fit(errors, n, n[0])[0])
             many.append(_spheres.rms(errors))
         slopes[:, :, i] = np.array([[p.value, p.standard_error] for p in parts]).T
     one = [techniques_exact.point_error(d) for d in dimensions]
@@ -48,10 +51,10 @@ def reduce(samples, settings):
     ahead = _spheres.ahead(found, error, edge, shown, settings)
     variables = {
         "lattice_error": described(np.abs(error), ("edge",), "fractional error of the lattice"),
-        "rms": described([r[0] for r in rows], at, "root mean square fractional error"),
-        "rms_error": described([r[1] for r in rows], at, "standard error"),
-        "shown_slope": described([f[0].value for f in fits], ("line",), "power of N"),
-        "shown_slope_error": described([f[0].standard_error for f in fits], ("line",), "its error"),
+        "rms": described(roots, at, "root mean square fractional error"),
+        "rms_error": described(root_errors, at, "standard error"),
+        "shown_slope": described([p.value for p in powers], ("line",), "power of N"),
+        "shown_slope_error": described([p.standard_error for p in powers], ("line",), "its error"),
         "slope": described(slopes[0], ("way", "dimension"), "power of N"),
         "slope_error": described(slopes[1], ("way", "dimension"), "standard error"),
         "lattice_level": described(level, ("dimension",), "lattice's error extrapolated to N = 1"),
@@ -78,8 +81,8 @@ def reduce(samples, settings):
     coords = {
         "edge": ("edge", edge),
         "n_points": ("edge", edge**shown),
-        "generator": list(GENERATORS),
-        "line": ["lattice", *GENERATORS],
+        "generator": list(PSEUDORANDOM),
+        "line": ["lattice", *PSEUDORANDOM],
         "way": list(MANY),
         "points_way": list(MANY[1:]),
         "dimension": dimensions,
@@ -92,7 +95,7 @@ def claims(dataset):
     """Test the powers of N, the bad generator, and where Monte Carlo gets ahead."""
     value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
     last = dataset.isel(edge=-1)
-    good, bad, full = (last.sel(generator=name) for name in GENERATORS)
+    good, bad, full = (last.sel(generator=name) for name in PSEUDORANDOM)
     n = f"{float(last.n_points):.0e}"
     kept = math.hypot(float(bad.rms_error / bad.rms), float(good.rms_error / good.rms))
     found = [
@@ -140,7 +143,7 @@ def claims(dataset):
 def draw(dataset):
     """Draw errors against N in 4 and in the most dimensions, powers of N, and who is ahead."""
     figure, axes = plotting.panels(2, 2, height=3.0, width=8.0)
-    _shown(axes[0], dataset)
+    _published(axes[0], dataset)
     _many(axes[1], dataset.isel(dimension=-1))
     _powers(axes[2], dataset)
     _ratios(axes[3], dataset)
@@ -156,19 +159,19 @@ def draw(dataset):
     return figure
 
 
-def _shown(axis, dataset):
+def _published(axis, dataset):
     """Draw the errors of the published figure."""
     dimension = dataset.attrs["settings"]["shown_dimension"]
     style = {"ms": 2.5, "lw": 0}
     value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
 
     def named(name, k):
-        power = plotting.pm(estimate.Mean(float(value[k]), float(error[k])))
+        power = plotting.with_error(estimate.Mean(float(value[k]), float(error[k])))
         return f"{name}: {power}".replace("-", "−")
 
     n, colour = dataset.n_points, plotting.COLOURS[0]
     axis.plot(n, dataset.lattice_error, "o", color=colour, label=named("lattice", 0), **style)
-    for k, name in enumerate(GENERATORS):
+    for k, name in enumerate(PSEUDORANDOM):
         here = dataset.sel(generator=name)
         axis.errorbar(
             n,

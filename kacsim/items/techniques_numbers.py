@@ -1,5 +1,7 @@
 """Every checkable claim of the chapter, and its exercises: printed, measured, verdict."""
 
+import functools
+
 from kacsim.items import _claims
 
 USES = (
@@ -10,17 +12,6 @@ USES = (
     "techniques_exercises",
 )
 
-
-def cases(settings):
-    """Return the cases of all items that the claims are about."""
-    return _claims.cases(USES, settings)
-
-
-def reduce(samples, settings):
-    """Return one row per claim with its statistic and verdict."""
-    return _claims.table(_claims.findings(USES, samples, settings))
-
-
-def draw(dataset):
-    """Draw the statistic of every claim, symbols by verdict."""
-    return _claims.draw(dataset)
+cases = functools.partial(_claims.cases, USES)
+reduce = functools.partial(_claims.reduce, "techniques_numbers", USES)
+draw = _claims.draw

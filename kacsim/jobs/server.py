@@ -172,13 +172,13 @@ def end_with_parent():
 
 def run(words):
     """Run one command as `python -m kacsim` would; return its exit status."""
+    import runpy
     import traceback
 
-    from kacsim import cli
-
     sys.argv = ["kacsim", *words]
+    status = 0
     try:
-        status = cli.main(words)
+        runpy.run_module("kacsim", run_name="__main__", alter_sys=True)
     except SystemExit as end:
         status = end.code if isinstance(end.code, int) else int(end.code is not None)
     except BaseException:

@@ -15,7 +15,8 @@ def sample_roots(case):
 
 def merge_roots(case):
     """Return (module, name) of what draws a case and joins its shards."""
-    return *case.roots, ("kacsim.jobs.shards", "merged")
+    kept = f"kacsim.{case.sampler.family}.sampling", "KEPT"  # which `merged` looks up
+    return *case.roots, kept, ("kacsim.jobs.shards", "merged")
 
 
 def reduce_roots(name):

@@ -40,12 +40,11 @@ def fourth_moment(
     ValueError
         Names the argument, its value and what is allowed.
     """
-    checks.raise_problems(
-        samplers.moment(algorithm, time, n_particles, collision_rate, **parameters)
-    )
+    own = samplers.own_parameters(algorithm, parameters)
+    checks.raise_problems(samplers.moment(algorithm, time, n_particles, collision_rate, **own))
     if time == 0:
         return INITIAL_SQUARE
     if n_particles == math.inf:
         return INITIAL_SQUARE + 3.0 * -math.expm1(-collision_rate * time / 4.0)
     moment = named("kacsim.kac", algorithm, "fourth_moment")
-    return moment(n_particles=n_particles, time=time, collision_rate=collision_rate, **parameters)
+    return moment(n_particles=n_particles, time=time, collision_rate=collision_rate, **own)

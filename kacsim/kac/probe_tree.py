@@ -1,8 +1,6 @@
 """The Kac equation probed by branching trees: the Boltzmann paper's estimator for Kac's eq. (6)."""
 
-import numpy as np
-
-from kacsim.boltzmann.model import DEPTH, KAC, tree
+from kacsim.boltzmann.model import KAC_LAW, tree, workspace
 from kacsim.kac.constants import THERMAL
 from kacsim.kernels.jit import kernel
 
@@ -24,10 +22,10 @@ def estimate(values, nodes, speed, time, oversampling, onset, max_nodes, stream)
     -------
     bool, False if a realization exceeded the budget
     """
-    stack, counts = np.empty((DEPTH, 5)), np.empty((DEPTH, 3), np.int64)
+    stack, counts = workspace()
     for k in range(values.size):
         values[k], nodes[k] = tree(
-            KAC, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
+            KAC_LAW, speed * speed, time, oversampling, onset, max_nodes, stack, counts, stream
         )
         if nodes[k] < 0:
             return False

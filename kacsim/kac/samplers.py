@@ -1,5 +1,6 @@
 """The samplers of the Kac paper, declared: algorithms, parameters, checks and costs."""
 
+import dataclasses
 import functools
 import math
 
@@ -94,8 +95,8 @@ def kac(*, algorithm, engine, n_particles, time, collision_rate, **_):
         )
 
 
-def moment(algorithm, time, n_particles, collision_rate, **more):
-    """Yield the problems of an exact fourth moment."""
+def moment(algorithm, time, n_particles, collision_rate, **own):
+    """Yield the problems of an exact fourth moment; `own` are the algorithm's own parameters."""
     found = [
         *one_of("algorithm", algorithm, ALGORITHMS),
         *positive("collision_rate", collision_rate),
@@ -109,11 +110,26 @@ def moment(algorithm, time, n_particles, collision_rate, **more):
     if found or n_particles == math.inf or time in (0, math.inf):
         return
     variant = next(variant for variant in VARIANTS if variant.name == algorithm)
-    wrong = [p for one in variant.parameters for p in one.problems(more.get(one.name))]
+    wrong = [problem for one in variant.parameters for problem in one.problems(own[one.name])]
     yield from wrong
     if variant.check and not wrong:
         common = {"n_particles": n_particles, "time": time, "collision_rate": collision_rate}
-        yield from variant.check(**common, **more)
+        yield from variant.check(**common, **own)
+
+
+def own_parameters(algorithm, given):
+    """Return the parameters that not every algorithm has, with defaults for those not given.
+
+    Raises
+    ------
+    ValueError
+        Names a parameter that the algorithm does not have.
+    """
+    common = tuple(one for one in KAC.parameters if one.name not in ("engine", "keep_above"))
+    taken = dataclasses.replace(KAC, parameters=common, variant_place=len(common))
+    complete = taken.complete({"algorithm": algorithm, **given})
+    shared = {one.name for one in common}
+    return {name: value for name, value in complete.items() if name not in shared}
 
 
 def kac_equilibrium(*, n_particles, tolerance, energy=None):

@@ -12,13 +12,12 @@ from numba import int64
 from kacsim.boltzmann.sampling import sample as sample_kac_probe
 from kacsim.kac import draws, perfect
 from kacsim.kernels.jit import kernel
-from kacsim.statistics.histogram import FINE_BINS, FINE_WIDTH, LIMIT, fine_edges
+from kacsim.statistics.histogram import FINE_BINS, FINE_LIMIT, FINE_WIDTH, fine_edges
 from kacsim.store import described
-from kacsim.streams import new_stream
+from kacsim.streams import CHUNK, new_stream
 
 __all__ = ["KEPT", "sample_kac", "sample_kac_corners", "sample_kac_equilibrium", "sample_kac_probe"]
 
-CHUNK = 8192
 ORDERS = (2, 4, 6, 8)
 KEPT = 100_000
 
@@ -41,7 +40,8 @@ def accumulate(values, counts, sums, kept, n_kept, keep_above):
     """
     scale = 1.0 / FINE_WIDTH
     for v in values:
-        place = int64(math.floor((min(max(v, -2.0 * LIMIT), 2.0 * LIMIT) + LIMIT) * scale)) + 1
+        near = min(max(v, -2.0 * FINE_LIMIT), 2.0 * FINE_LIMIT)
+        place = int64(math.floor((near + FINE_LIMIT) * scale)) + 1
         counts[min(max(place, 0), FINE_BINS + 1)] += 1
         square = v * v
         sums[0] += square

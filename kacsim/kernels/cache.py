@@ -50,7 +50,9 @@ def roots_of(function):
             roots |= more
             values += [name, *inner_values]
         else:
-            values.append(f"{name} = {enclosed!r}")
+            values.append(f"{name} = {sources.plain(enclosed, name)}")
+    for default in (function.__defaults__, function.__kwdefaults__):
+        values.append(sources.plain(default, f"a default of {function.__qualname__}"))
     return frozenset(roots), values
 
 

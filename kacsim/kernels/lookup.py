@@ -21,7 +21,8 @@ def lazy(module):
 def named(package, module, attribute):
     """Return what a module of a package, found by its name, binds to an attribute.
 
-    Where package and attribute are literals every module of the package that binds the attribute
-    counts as used; where the attribute is not, what is looked up must be a root of its own.
+    Where package and attribute are literals what they name counts as used: in the module, or, if
+    that is no literal, in every module of the package. Where package or attribute is none, what
+    is looked up must be a root of its own. The function itself must not be handed on.
     """
     return getattr(importlib.import_module(f"{package}.{module}"), attribute)

@@ -3,89 +3,102 @@
 A *definition* is what a module binds at its top level: a function, a class, a constant. From its
 roots (the code of a case or of an item's stage) a result reaches definitions by the names that
 these use, through imports at any depth, lazy modules and dispatch by name. Their trees, without
-docstrings, comments, annotations and the messages of errors, are hashed, with the versions of the
-libraries that they import. A module that sets ``OUTSIDE`` decides nothing by its code: of it only
-the constants that are used count, by their values.
+docstrings, comments, annotations and the messages of errors, are hashed, with what their names
+stand for and with the versions of the libraries that they import. A module that sets ``OUTSIDE``
+decides nothing by its code: of it only the constants that are used count, by their values.
+
+What cannot be followed counts whole, as a module that is handed on, or is refused: code that is
+found by a name which stands nowhere, and constants that are changed from elsewhere.
 """
 
 import functools
 import hashlib
-import importlib
-import pkgutil
+import importlib.metadata
+import importlib.util
+import sys
 
-from kacsim.kernels import trees
-from kacsim.kernels.provenance import PACKAGE, versions
+from kacsim.kernels import names, tables
+from kacsim.kernels.names import UnknownError
+from kacsim.kernels.provenance import version, versions
+from kacsim.kernels.scopes import CALLED
 
 OUTSIDE = "what it computes are names for results, not results"
 
-
-class UnknownError(LookupError):
-    """A root or a name in the package that no module binds."""
-
-
-@functools.cache
-def _module(name):
-    """Return the tables of a module of the package (`trees.tables`), None if there is none."""
-    path = PACKAGE.parent.joinpath(*name.split("."))
-    for file in (path.with_suffix(".py"), path / "__init__.py"):
-        if file.is_file():
-            return trees.tables(file, name)
-    return None
+# What imports a module by a name that it is given: such modules are roots (`kacsim.jobs.stages`).
+BY_ROOTS = frozenset([("kacsim.items", "load")])
+# What finds code by a name, in Python and in its library.
+FINDERS = ("__import__", "compile", "eval", "exec", "globals", "vars")
+LIBRARIES = ("builtins", "gc", "importlib", "inspect", "lazy_loader", "pickle", "pkgutil", "runpy")
+LIBRARIES += ("sys._getframe", "sys.modules")
+HARMLESS = ("importlib.metadata", "lazy_loader.attach")
+PLAIN = (str, bytes, bool, int, float, complex, type(None))
 
 
-def _resolve(module, path):
-    """Yield what a dotted name in a module stands for.
-
-    Yields
-    ------
-    (module, name) of a definition, (module, None) for all of a module, (library, "") for one that
-    is not of the package
-    """
-    table = _module(module)
-    if path[0] in table["definitions"]:
-        yield module, path[0]
-    elif path[0] in table["aliases"]:
-        yield from _follow(table["aliases"][path[0]], path[1:])
-
-
-def _follow(target, rest):
-    """Yield what the attributes `rest` of a dotted target stand for."""
-    top = target.split(".")[0]
-    if top != "kacsim":
-        yield top, ""
-        return
-    while _module(target) is None:  # the last part is a name in a module
-        target, _, name = target.rpartition(".")
-        rest = (name, *rest)
-        if not target:
-            return
-    if not rest:
-        yield target, None
-    elif _module(f"{target}.{rest[0]}") is not None:
-        yield from _follow(f"{target}.{rest[0]}", rest[1:])
-    else:
-        yield from _resolve(target, rest)
-
-
-def _dispatched(package, attribute):
-    """Yield (module, attribute) for every module of a package that binds the attribute."""
-    for found in pkgutil.iter_modules([str(PACKAGE.parent.joinpath(*package.split(".")))]):
-        name = f"{package}.{found.name}"
-        if not found.ispkg and attribute in _module(name)["definitions"] | _module(name)["aliases"]:
-            yield name, attribute
+class UnfollowedError(LookupError):
+    """Code that a result depends on in a way that its tree does not show."""
 
 
 @functools.cache
 def _used(module, name):
-    """Return the frozenset of what one definition uses."""
-    entry = _module(module)["definitions"][name]
-    found = set()
+    """Return name as written -> sorted (module, name) that one definition uses by it."""
+    entry = names.table(module)["definitions"][name]
+    found = {}
     for path in entry["uses"]:
-        local = entry["aliases"].get(path[0])
-        found.update(_follow(local, path[1:]) if local else _resolve(module, path))
-    for package, attribute in entry["dispatches"]:
-        found.update(_dispatched(package, attribute))
-    return frozenset(found)
+        local = entry["aliases"].get(path[0], ())
+        found[".".join(path)] = names.resolve(module, path, local)
+    for words in entry["dispatches"]:
+        found[" ".join(map(str, words))] = names.dispatched(*words)
+    for target in entry["whole"]:
+        found[target] = names.follow(target)
+    found = {text: sorted(set(ends), key=str) for text, ends in found.items()}
+    if (module, name) not in BY_ROOTS:
+        for reason in _unfollowed(module, entry, found):
+            raise UnfollowedError(f"{module}.{name}: {reason}: cannot be followed")
+    return {text: ends for text, ends in found.items() if ends}
+
+
+def _unfollowed(module, entry, found):
+    """Yield what a definition does that its tree does not show."""
+    yield from entry["unfollowed"]
+    if "*" in {*entry["aliases"], *names.table(module)["aliases"]}:
+        yield "import *"
+    for text, ends in found.items():
+        if not ends and text.split(".")[0] in FINDERS:
+            yield text
+        for target, name in ends:
+            if name == "" and _within(target, LIBRARIES) and not _within(target, HARMLESS):
+                yield target
+
+
+def _within(target, tops):
+    return any(target == top or target.startswith(f"{top}.") for top in tops)
+
+
+@functools.cache
+def _changed():
+    """Return (module, name) -> who changes it, when a function runs or from another module."""
+    found = {}
+    for module in names.modules():
+        known = names.table(module)
+        for name, entry in known["definitions"].items():
+            for kind, later, path in entry["changes"]:
+                for home, end in names.resolve(module, path, entry["aliases"].get(path[0], ())):
+                    elsewhere = home != module or later
+                    if end != "" and elsewhere and _may_change(kind, known, home, end):
+                        found[home, end] = f"{module}.{name}"
+    return found
+
+
+def _may_change(kind, known, home, name):
+    """Tell whether a definition that `known` holds may change what a name stands for.
+
+    A call changes no function and no module; what lies outside may keep things for itself.
+    """
+    table = names.table(home)
+    if known["outside"] and table["outside"]:
+        return False
+    changeable = name is not None and table["definitions"][name]["kind"] != "function"
+    return kind != CALLED or changeable
 
 
 @functools.cache
@@ -104,28 +117,45 @@ def closure(roots):
     ------
     UnknownError
         Names a root that does not exist: it would depend on nothing, silently.
+    UnfollowedError
+        Names a definition that reaches more than its tree shows.
     """
-    seen, libraries, waiting = set(), set(), list(roots)
+    seen, libraries, done, waiting = set(), set(), set(), [*roots]
     while waiting:
-        module, name = waiting.pop()
+        module, name = one = waiting.pop()
+        if one in done:
+            continue
+        done.add(one)
         if name == "":
-            libraries.add(module)
+            libraries.add(module.split(".")[0])
             continue
-        table = _module(module)
-        if table is None or (name is not None and name not in table["definitions"]):
-            found = [*_resolve(module, (name,))] if table else []
-            if not found:
-                raise UnknownError(f"{module}: binds no {name}")
-            waiting += found
+        waiting += _with(module, name)
+        if name is None or name not in names.table(module)["definitions"]:
             continue
-        effects = () if table["outside"] else table["effects"]
-        names = [*table["definitions"]] if name is None else [name, *effects]
-        for one in names:
-            if (module, one) not in seen:
-                seen.add((module, one))
-                if not table["outside"]:
-                    waiting += _used(module, one)
+        seen.add(one)
+        if not names.table(module)["outside"]:
+            for place in (one, (module, None)):
+                if place in _changed():
+                    raise UnfollowedError(f"{module}.{name}: is changed by {_changed()[place]}")
+            for ends in _used(module, name).values():
+                waiting += ends
     return frozenset(seen), frozenset(libraries)
+
+
+def _with(module, name):
+    """Yield what counts with a name of a module: what its import does, what the name stands for."""
+    known = names.table(module)
+    if known is None or (name is not None and not names.binds(module, name)):
+        raise UnknownError(f"{module}: binds no {name}")
+    for one in names.imported(module):
+        if not names.table(one)["outside"]:
+            yield from ((one, effect) for effect in names.table(one)["effects"])
+    if name is not None:
+        yield from names.resolve(module, [name])
+        return
+    for other in {*known["definitions"], *known["aliases"]}:
+        yield from names.resolve(module, [other])
+    yield from ((one, None) for one in names.modules() if one.rpartition(".")[0] == module)
 
 
 def code(roots):
@@ -141,20 +171,52 @@ def code(roots):
 @functools.cache
 def _code(roots):
     definitions, libraries = closure(roots)
-    compilers = {"llvmlite"} if "numba" in libraries else set()
-    digest = hashlib.sha256(versions(sorted(libraries | compilers)).encode())
+    found = {one for library in libraries for one in _distributions(library)}
+    digest = hashlib.sha256(versions(sorted(found)).encode())
     for module, name in sorted(definitions):
         digest.update(f"{module}.{name} {_digest(module, name)}\n".encode())
-    trees.keep()
+    tables.keep()
     return digest.hexdigest()[:16]
 
 
+@functools.cache
+def _distributions(library):
+    """Return the installed distributions that hold a library, none if it is Python's own."""
+    if library in sys.stdlib_module_names:
+        return ()
+    if version(library) == "none":  # it has another name than its distribution, or is not there
+        found = importlib.metadata.packages_distributions().get(library)
+        if not found and importlib.util.find_spec(library):
+            raise UnknownError(f"{library}: is neither of the package nor installed")
+        return tuple(found or (library,))
+    return (library, "llvmlite") if library == "numba" else (library,)
+
+
 def _digest(module, name):
-    """Return the digest of a definition, or of the value of a constant that lies outside."""
-    table = _module(module)
-    entry = table["definitions"][name]
-    if not table["outside"]:
-        return entry["digest"]
-    if not entry["constant"]:
+    """Return the digest of a definition, or the value of a constant that lies outside."""
+    entry = names.table(module)["definitions"][name]
+    if not names.table(module)["outside"]:
+        return f"{entry['digest']} {sorted(_used(module, name).items())}"
+    if entry["kind"] != "constant":
         return ""
-    return repr(getattr(importlib.import_module(module), name))
+    return plain(getattr(importlib.import_module(module), name), f"{module}.{name}")
+
+
+def plain(value, name):
+    """Return a plain value as text, the same in every process.
+
+    Raises
+    ------
+    UnfollowedError
+        If the text would not say all of the value, as that of a long array or of a function.
+    """
+    if isinstance(value, dict):
+        pairs = [(plain(key, name), plain(one, name)) for key, one in value.items()]
+        return f"{type(value).__name__}{pairs}"
+    if isinstance(value, (tuple, list)):
+        return f"{type(value).__name__}{[plain(one, name) for one in value]}"
+    if isinstance(value, (set, frozenset)):
+        return f"{type(value).__name__}{sorted(plain(one, name) for one in value)}"
+    if not isinstance(value, PLAIN):
+        raise UnfollowedError(f"{name}: is no plain value, which results could depend on")
+    return repr(value)

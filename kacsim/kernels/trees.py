@@ -1,30 +1,31 @@
-"""The tables of one module: what it binds, what each definition uses, and a digest of its tree.
-
-Reading and hashing trees takes a second for the package, so that the tables of a file are kept,
-under the hash of its bytes, beside the compiled kernels.
-"""
+"""The tables of one module: what it binds, what each definition uses, and a digest of its tree."""
 
 import ast
-import functools
+import builtins
 import hashlib
-import json
-import sys
 
-from kacsim.kernels import folder
-from kacsim.kernels.changes import changes, place
+from kacsim.kernels.scopes import DEFINITIONS, chain, changes, now, place, targets
 
 OUTSIDE = "what it computes are names for results, not results"
-FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
-SCOPES = (*FUNCTIONS, ast.ClassDef)
-IMPORTS = (ast.Import, ast.ImportFrom)
-COMPREHENSIONS = (ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
+
+# What a constant that cannot change is made of.
+FIXED = (ast.Constant, ast.UnaryOp, ast.BinOp, ast.Tuple, ast.operator, ast.unaryop, ast.Load)
 LAZY = "kacsim.kernels.lookup.lazy"  # lazy(module)
 NAMED = "kacsim.kernels.lookup.named"  # named(package, module, attribute)
+HANDLE = "kacsim.kernels.lookup._Lazy"
 ATTACH = "lazy_loader.attach"
 # What leads to code that no name in the tree stands for, or to texts that digests leave out.
-HIDDEN = {"__doc__", "__dict__", "__globals__", "__builtins__", "__subclasses__", "__code__"}
-HOOKS = {"__init_subclass__", "__set_name__"}
-MOST_KEPT = 1000  # tables of files, several versions of each
+HIDDEN = {
+    "__builtins__",
+    "__code__",
+    "__dict__",
+    "__doc__",
+    "__globals__",
+    "__init_subclass__",
+    "__set_name__",
+    "__subclasses__",
+    "metaclass",
+}
 
 
 class _Bare(ast.NodeTransformer):
@@ -53,17 +54,11 @@ class _Bare(ast.NodeTransformer):
         return ast.copy_location(ast.Raise(exc=kind, cause=None), node)
 
 
-def _chain(node):
-    """Return the names of ``a.b.c`` as a tuple, None for an expression that is none."""
-    found, whole = place(node)
-    return found if whole else None
-
-
 def _uses(node, found):
     """Add the dotted names that a tree reads to `found`, each as long as it is written."""
-    chain = _chain(node)
-    if chain is not None:
-        found.add(chain)
+    names = chain(node)
+    if names is not None:
+        found.add(names)
         return
     for child in ast.iter_child_nodes(node):
         _uses(child, found)
@@ -76,7 +71,8 @@ def _imported(node, package):
             top = name.name.split(".")[0]
             yield name.asname or top, name.name if name.asname else top
     elif isinstance(node, ast.ImportFrom):
-        home = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
+        levels = package.split(".")
+        home = levels[: len(levels) - node.level + 1] if node.level else []
         for name in node.names:
             target = ".".join([*home, *filter(None, [node.module]), name.name])
             yield name.asname or name.name, target
@@ -88,61 +84,15 @@ def _aliases(nodes, package):
     for node in nodes:
         for name, target in _imported(node, package):
             found.setdefault(name, set()).add(target)
-    return {name: sorted(targets) for name, targets in found.items()}
+    return {name: sorted(meant) for name, meant in found.items()}
 
 
-def _meant(chain, aliases):
-    """Return the dotted names that a chain may stand for, as far as imports say."""
-    if chain is None:
+def _meant(node, aliases):
+    """Return the dotted names that an expression may stand for, as far as imports say."""
+    names = chain(node)
+    if names is None:
         return set()
-    return {".".join([target, *chain[1:]]) for target in aliases.get(chain[0], ())}
-
-
-def _scope(node):
-    """Yield the nodes of a statement that run in the scope of the module itself."""
-    yield node
-    if isinstance(node, (*SCOPES, ast.Lambda)):
-        return
-    for child in ast.iter_child_nodes(node):
-        if isinstance(child, COMPREHENSIONS):
-            yield from (one for one in ast.walk(child) if isinstance(one, ast.NamedExpr))
-        else:
-            yield from _scope(child)
-
-
-def _targets(node):
-    """Return the names that a statement binds in the scope of its module, imports apart."""
-    found = {}
-    for one in _scope(node):
-        if isinstance(one, SCOPES):
-            found[one.name] = None
-        elif isinstance(one, ast.NamedExpr):
-            found[one.target.id] = None
-        elif isinstance(one, ast.Name) and isinstance(one.ctx, ast.Store):
-            found[one.id] = None
-        elif isinstance(one, (ast.ExceptHandler, ast.MatchAs, ast.MatchStar)) and one.name:
-            found[one.name] = None
-        elif isinstance(one, ast.MatchMapping) and one.rest:
-            found[one.rest] = None
-    return list(found)
-
-
-def _only_binds(node, fixed):
-    """Tell a statement that does nothing but bind names.
-
-    A call may change what it is given, unless that is a constant that cannot change.
-    """
-    if isinstance(node, SCOPES):
-        return not node.decorator_list or not changes(node.decorator_list)
-    if not isinstance(node, (ast.Assign, ast.AnnAssign)) or changes([node]):
-        return False
-    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-    if any(isinstance(one, (ast.Attribute, ast.Subscript)) for t in targets for one in ast.walk(t)):
-        return False
-    calls = [one for one in _scope(node) if isinstance(one, ast.Call)]
-    given = (one for call in calls for one in (*call.args, *(k.value for k in call.keywords)))
-    own = {one.id for part in given for one in ast.walk(part) if isinstance(one, ast.Name)}
-    return not own & fixed
+    return {".".join([target, *names[1:]]) for target in aliases.get(names[0], ())}
 
 
 def _words(call):
@@ -152,70 +102,133 @@ def _words(call):
     return [word.value if isinstance(word, ast.Constant) else None for word in call.args]
 
 
-def _attached(node, module, aliases):
-    """Return name -> targets of the public names that ``lazy_loader.attach`` gives a package."""
-    call = getattr(node, "value", None)
-    if not isinstance(call, ast.Call) or ATTACH not in _meant(_chain(call.func), aliases):
+def _attachment(call):
+    """Return name -> module or function that ``lazy_loader.attach`` gives, None if not literal."""
+    given = dict(zip(("name", "submodules", "submod_attrs"), call.args, strict=False))
+    given |= {keyword.arg: keyword.value for keyword in call.keywords}
+    try:
+        modules = ast.literal_eval(given.get("submodules", ast.Constant(())))
+        homes = ast.literal_eval(given.get("submod_attrs", ast.Dict([], [])))
+    except ValueError:
+        return None
+    named = {name: f"{home}.{name}" for home, names in homes.items() for name in names}
+    return {name: name for name in modules} | named
+
+
+def _is_idle(node):
+    """Tell a statement that is an import, which is followed by its name, or a bare text."""
+    text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    return text or isinstance(node, (ast.Import, ast.ImportFrom))
+
+
+class _Module:
+    """A module's text: its names, imports and statements."""
+
+    def __init__(self, text, module, package):
+        self.module, self.package = module, package
+        body = ast.parse(text).body
+        self.aliases = _aliases((one for node in body for one in now(node, True)), package)
+        imports = _aliases((one for node in body for one in ast.walk(node)), package)
+        self.imports = sorted({target for meant in imports.values() for target in meant})
+        self.statements = [_Bare().visit(node) for node in body if not _is_idle(node)]
+        self.own = {name for node in self.statements for name in targets(node)}
+        self.fixed = set()
+        for node in self.statements:
+            if isinstance(node, DEFINITIONS) or self._lasts(node):
+                self.fixed |= set(targets(node))
+
+    def _lasts(self, node):
+        """Tell an assignment of a value that cannot change."""
+        return isinstance(node, ast.Assign) and all(
+            isinstance(one, FIXED) or (isinstance(one, ast.Name) and one.id in self.fixed)
+            for one in ast.walk(node.value)
+        )
+
+    def only_binds(self, node):
+        """Tell a statement that does nothing but bind names.
+
+        A call may change what it is given, unless that cannot change or the function is Python's.
+        """
+        if any(not later and path[0] in self.own for _, later, path in changes([node])):
+            return False
+        if not targets(node) or not isinstance(node, (*DEFINITIONS, ast.Assign, ast.AnnAssign)):
+            return False
+        for call in now(node):
+            if isinstance(call, ast.Call) and not self._is_python(call.func):
+                given = [*call.args, *(keyword.value for keyword in call.keywords)]
+                names = {n.id for g in given for n in ast.walk(g) if isinstance(n, ast.Name)}
+                if names & self.own - self.fixed:
+                    return False
+        return True
+
+    def _is_python(self, function):
+        path, _ = place(function)
+        known = path is None or (hasattr(builtins, path[0]) and path[0] not in self.aliases)
+        return known and (path is None or path[0] not in self.own)
+
+    def looked_up(self, node):
+        """Return name -> targets of the names that a statement gives to modules, found lazily."""
+        call = getattr(node, "value", None)
+        if not isinstance(call, ast.Call):
+            return {}
+        meant, names, words = _meant(call.func, self.aliases), targets(node), _words(call)
+        if LAZY in meant and len(names) == len(words) == 1 and words[0]:
+            return {names[0]: [words[0]]}
+        if ATTACH in meant:
+            found = _attachment(call) or {}
+            return {name: [f"{self.module}.{target}"] for name, target in found.items()}
         return {}
-    names = dict(zip(("package_name", "submodules", "submod_attrs"), call.args, strict=False))
-    names |= {keyword.arg: keyword.value for keyword in call.keywords}
-    modules, attributes = (
-        ast.literal_eval(names[key]) if key in names else ()
-        for key in ("submodules", "submod_attrs")
-    )
-    found = {name: [f"{module}.{name}"] for name in modules or ()}
-    for home in attributes or ():
-        found |= {name: [f"{module}.{home}.{name}"] for name in attributes[home]}
-    return found
+
+
+def _kind(node):
+    if isinstance(node, ast.ClassDef):
+        return "class"
+    return "function" if isinstance(node, DEFINITIONS) else "constant"
 
 
 class _Definition:
     """What is known of one definition; several statements may bind its name."""
 
-    def __init__(self, nodes, module_aliases, package):
+    def __init__(self, nodes, module):
         self.uses, self.dispatches, self.whole, self.unfollowed = set(), [], set(), set()
-        self.constant = not all(isinstance(node, SCOPES) for node in nodes)
-        inner = [one for node in nodes for one in ast.walk(node)]
-        self.aliases = _aliases(inner, package)
-        # Both count where an import in one scope hides another: which is read is not followed.
+        kinds = {_kind(node) for node in nodes}
+        self.kind = kinds.pop() if len(kinds) == 1 else "constant"
+        self.aliases = _aliases((one for node in nodes for one in ast.walk(node)), module.package)
+        # Both count where an import in one scope hides another's: which is read is not followed.
         self._known = {
-            name: [*self.aliases.get(name, ()), *module_aliases.get(name, ())]
-            for name in {*self.aliases, *module_aliases}
+            name: [*self.aliases.get(name, ()), *module.aliases.get(name, ())]
+            for name in {*self.aliases, *module.aliases}
         }
-        self.changes = sorted(map(list, changes(nodes)))
+        self.changes = sorted([kind, later, list(path)] for kind, later, path in changes(nodes))
         digest = hashlib.sha256()
         for node in nodes:
-            bare = _Bare().visit(node)
-            _uses(bare, self.uses)
-            self._look_up(bare)
-            digest.update(ast.dump(bare, annotate_fields=False).encode())
+            _uses(node, self.uses)
+            self._look_up(node)
+            digest.update(ast.dump(node, annotate_fields=False).encode())
         self.digest = digest.hexdigest()[:16]
 
     def _look_up(self, tree):
         """Note what is looked up by name, and what cannot be followed."""
         mentioned = followed = 0
         for one in ast.walk(tree):
-            meant = _meant(_chain(one), self._known)
-            mentioned += not meant.isdisjoint((LAZY, NAMED))
-            if isinstance(one, ast.Call):
-                followed += self._call(one)
-            name = getattr(one, "attr", getattr(one, "id", getattr(one, "name", None)))
-            if name in HIDDEN | HOOKS or getattr(one, "arg", None) == "metaclass":
-                self.unfollowed.add(name or "metaclass")
+            mentioned += not _meant(one, self._known).isdisjoint((LAZY, NAMED, HANDLE, ATTACH))
+            followed += isinstance(one, ast.Call) and self._is_followed(one)
+            names = {getattr(one, key, None) for key in ("attr", "id", "name", "arg")}
+            self.unfollowed |= {name for name in names if isinstance(name, str)} & HIDDEN
         if mentioned != followed:
-            self.unfollowed.add("a module looked up by a name that is not written there")
+            self.unfollowed.add("a look-up whose names are not written in it")
 
-    def _call(self, call):
-        """Return 1 for a look-up that can be followed, or that roots stand for."""
-        meant, words = _meant(_chain(call.func), self._known), _words(call)
+    def _is_followed(self, call):
+        """Tell a look-up that can be followed, or that roots stand for; note its words."""
+        meant, words = _meant(call.func, self._known), _words(call)
         if NAMED in meant and len(words) == 3:
             if words[0] and words[2]:
                 self.dispatches.append(words)
-            return 1
+            return True
         if LAZY in meant and len(words) == 1 and words[0]:
             self.whole.add(words[0])
-            return 1
-        return 0
+            return True
+        return ATTACH in meant and _attachment(call) is not None
 
     def table(self):
         """Return it as JSON-ready values."""
@@ -227,7 +240,7 @@ class _Definition:
             "whole": sorted(self.whole),
             "changes": self.changes,
             "unfollowed": sorted(self.unfollowed),
-            "constant": self.constant,
+            "kind": self.kind,
         }
 
 
@@ -246,36 +259,24 @@ def analysed(text, module, package):
     definition), imports (dotted targets of all imports), outside (bool, the module says that its
     code decides nothing)
     """
-    body = ast.parse(text).body
-    bound, effects, lazy = {}, [], {}
-    aliases = _aliases((one for node in body for one in _scope(node)), package)
-    imports = _aliases((one for node in body for one in ast.walk(node)), package)
-    fixed = _changeable(body)
-    for node in body:
-        if isinstance(node, IMPORTS):
+    read = _Module(text, module, package)
+    bound, effects = {}, []
+    aliases = {name: list(targets) for name, targets in read.aliases.items()}
+    for node in read.statements:
+        found, names = read.looked_up(node), targets(node)
+        for name, meant in found.items():
+            aliases.setdefault(name, []).extend(meant)
+        if found and set(names) == set(found):
             continue
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
-            continue
-        names, value = _targets(node), getattr(node, "value", None)
-        if isinstance(value, ast.Call) and LAZY in _meant(_chain(value.func), aliases):
-            words = _words(value)
-            if len(names) == len(words) == 1 and words[0]:
-                lazy.setdefault(names[0], []).append(words[0])
-                continue
-        for name, targets in _attached(node, module, aliases).items():
-            lazy.setdefault(name, []).extend(targets)
-        if not _only_binds(node, fixed):
+        if not read.only_binds(node):
             effects.append(f"effect {len(effects) + 1}")
             names.append(effects[-1])
         for name in names:
             bound.setdefault(name, []).append(node)
-    definitions = {name: _Definition(nodes, aliases, package) for name, nodes in bound.items()}
-    for name, targets in lazy.items():
-        aliases[name] = [*aliases.get(name, ()), *targets]
     return {
-        "definitions": {name: entry.table() for name, entry in definitions.items()},
+        "definitions": {name: _Definition(nodes, read).table() for name, nodes in bound.items()},
         "aliases": aliases,
         "effects": effects,
-        "imports": sorted({target for targets in imports.values() for target in targets}),
+        "imports": read.imports,
         "outside": "OUTSIDE" in bound,
     }

@@ -3,13 +3,13 @@
 import os
 import shutil
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 VARIABLE = "KACSIM_CHROMIUM"  # the browser to use; empty: none
-NONE = f"no Chromium found ({', '.join(NAMES)}, or the path in {VARIABLE})"
+NONE = f"no Chromium found ({', '.join(PROGRAMS)}, or the path in {VARIABLE})"
 
 
 def find():
     """Return the path of a Chromium, None where there is none."""
     chosen = os.environ.get(VARIABLE)
-    names = NAMES if chosen is None else (chosen,)
+    names = PROGRAMS if chosen is None else (chosen,)
     return next(filter(None, map(shutil.which, filter(None, names))), None)

@@ -12,7 +12,7 @@ from kacsim.cases import tiny_cases
 from kacsim.kernels import sources
 from kacsim.report.page import read_text, without_files
 
-LARGEST = 5_000_000  # bytes
+LARGEST_REPORT = 5_000_000  # bytes
 REPORT, FACTS = "report.html", "kept.json"
 
 
@@ -31,20 +31,22 @@ def keep(results, plan, folder):
         If a file is missing, the run was not a full one, or the report is too large.
     """
     results, folder = Path(results), Path(folder)
-    sources = set()
+    made_by = set()
     for name, wanted in plan.settings.items():
         path = results / "datasets" / f"{name}.nc"
         attributes = store.read(path).attrs
         if attributes["settings"] != json.loads(json.dumps(wanted)):
             raise files.StoreError(f"{path}: not made with these settings; only a full run is kept")
-        sources.add(attributes["source"])
+        made_by.add(attributes["source"])
     html = without_files(read_text(results / "report" / REPORT))
-    if (size := len(html.encode())) > LARGEST:
-        raise files.StoreError(f"{REPORT}: {size} bytes; a kept report has at most {LARGEST}")
+    if (size := len(html.encode())) > LARGEST_REPORT:
+        raise files.StoreError(
+            f"{REPORT}: {size} bytes; a kept report has at most {LARGEST_REPORT}"
+        )
     # What the samples were drawn by, which may be older than the sources of today.
     marks = {case.unit: results.parent / case.compiled() for case in plan.cases.values()}
     drawn = {unit: read_text(mark).strip() for unit, mark in marks.items()}
-    facts = {"sources": sorted(sources), "kernels": drawn, "configuration": plan.settings}
+    facts = {"sources": sorted(made_by), "kernels": drawn, "configuration": plan.settings}
     text = json.dumps(facts, indent=1, sort_keys=True) + "\n"
     for name, content in ((REPORT, html), (FACTS, text)):
         files.replace_file(folder / name, lambda path, c=content: _write(path, c))

@@ -80,7 +80,7 @@ def write(items, datasets_folder, figures_folder, output, options=""):
     verdicts = [row["verdict"] for row in claims.values()]
     html = env.get_template("report.html.j2").render(
         style=Markup(read_text(TEXTS / "style.css")),
-        texts=_texts(env, datasets, claims, shown),
+        texts=_sections(env, datasets, claims, shown),
         items=shown,
         claims=claims,
         counts={word: verdicts.count(word) for word in SIGNS},
@@ -213,7 +213,7 @@ def _tvn_table(dataset):
     }
 
 
-def _texts(env, datasets, claims, shown):
+def _sections(env, datasets, claims, shown):
     """Return the texts that have items on the page, each with its items and its known errors."""
     found = []
     for key, text in yaml.safe_load(read_text(TEXTS / "errata.yaml")).items():

@@ -2,15 +2,16 @@
 
 import numpy as np
 
-# Samplers keep counts at this width out to +-LIMIT; every wider bin is a whole number of them.
+# Samplers keep counts at this width out to +-FINE_LIMIT; every wider bin is a whole number of
+# them.
 FINE_WIDTH = 0.05
-LIMIT = 8.0
-FINE_BINS = round(2 * LIMIT / FINE_WIDTH)
+FINE_LIMIT = 8.0
+FINE_BINS = round(2 * FINE_LIMIT / FINE_WIDTH)
 
 
 def fine_edges():
     """Return the float64[FINE_BINS + 1] edges between the two outermost (tail) bins."""
-    return np.linspace(-LIMIT, LIMIT, FINE_BINS + 1)
+    return np.linspace(-FINE_LIMIT, FINE_LIMIT, FINE_BINS + 1)
 
 
 def coarsen(counts, bin_width):
@@ -19,7 +20,7 @@ def coarsen(counts, bin_width):
     Parameters
     ----------
     counts : int[..., FINE_BINS + 2], the first and last being the tails
-    bin_width : float, a whole multiple of `FINE_WIDTH` that divides `LIMIT`
+    bin_width : float, a whole multiple of `FINE_WIDTH` that divides `FINE_LIMIT`
 
     Returns
     -------
@@ -33,7 +34,8 @@ def coarsen(counts, bin_width):
     factor = round(bin_width / FINE_WIDTH)
     if factor < 1 or not np.isclose(factor * FINE_WIDTH, bin_width) or FINE_BINS % factor:
         raise ValueError(
-            f"bin_width = {bin_width!r}: must be a multiple of {FINE_WIDTH} that divides {LIMIT}"
+            f"bin_width = {bin_width!r}: must be a multiple of {FINE_WIDTH} "
+            f"that divides {FINE_LIMIT}"
         )
     counts = np.asarray(counts)
     inner = counts[..., 1:-1]

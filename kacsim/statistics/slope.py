@@ -6,7 +6,8 @@ import numpy as np
 
 from kacsim.statistics.estimate import Mean
 
-ITERATIONS = 200
+MOST_STEPS = 200
+SMALLEST_STEP = 1e-12  # of a logarithm
 
 
 def of_squares(n, squares, groups):
@@ -32,10 +33,7 @@ def of_squares(n, squares, groups):
     design = np.stack([np.ones(x.size), x - centre], axis=1)
     inverse = np.linalg.inv(design.T @ design)
     known = np.maximum(squares, 1e-6 * squares.mean())
-    beta = inverse @ design.T @ np.log(known)
-    for _ in range(ITERATIONS):
-        relative = squares * np.exp(-design @ beta) - 1.0
-        beta = beta + inverse @ design.T @ np.clip(relative, -1.0, 5.0)
+    beta = _fitted(design, squares, inverse @ design.T @ np.log(known))
     relative = squares * np.exp(-design @ beta) - 1.0
     labels = np.unique(groups)
     scores = np.stack([(relative[:, None] * design)[groups == g].sum(axis=0) for g in labels])
@@ -43,3 +41,25 @@ def of_squares(n, squares, groups):
     covariance = inverse @ (scores.T @ scores) @ inverse * many / max(1, many - 1)
     slope = Mean(float(beta[1]) / 2.0, math.sqrt(covariance[1, 1]) / 2.0)
     return slope, float(math.exp((beta[0] - beta[1] * centre) / 2.0))
+
+
+def _fitted(design, squares, beta):
+    """Return the coefficients that make sum(squares / fit + log fit) least, from a first guess.
+
+    The sum is convex in them: Newton's steps, each halved until it leads down.
+    """
+
+    def height(coefficients):
+        logarithm = design @ coefficients
+        return (squares * np.exp(-logarithm) + logarithm).sum()
+
+    for _ in range(MOST_STEPS):
+        ratio = squares * np.exp(-design @ beta)
+        slopes, curvature = design.T @ (ratio - 1.0), (design.T * ratio) @ design
+        step = np.linalg.lstsq(curvature, slopes, rcond=None)[0]
+        while not height(beta + step) <= height(beta) and np.abs(step).max() > SMALLEST_STEP:
+            step = step / 2.0
+        if np.abs(step).max() <= SMALLEST_STEP:
+            break
+        beta = beta + step
+    return beta

@@ -12,6 +12,20 @@ from kacsim import checks
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.samplers import declared
 from kacsim.streams import new_stream
+from kacsim.techniques.constants import (
+    FACE,
+    NUMBER,
+    POSITION,
+    PRODUCT,
+    SPEED,
+    SPEED_2,
+    SPEED_4,
+    SQUARES,
+    SUMS,
+    TANGENT_1,
+    TANGENT_2,
+    VELOCITY,
+)
 from kacsim.variates import exponential, half_normal, random_sign, uniform
 
 REACH = 8.0  # thermal velocities from which particles of the outer gas come
@@ -68,9 +82,8 @@ def add_particle(face, position, velocity, half_width, numbers, tallies, n_kept)
     position, velocity : float64[3]
     numbers : int64[6], particles of this step
     tallies : of (sums, speeds, width, kept), all but the width modified in place:
-        float64[6, 8], sums of 1, v_n, v_n**2, v_n**4, both tangential v, the product of the
-        positions and their squares, these in half widths; int64[6, bins], particles by v_n / width;
-        float64[m, 7], face, position and velocity of the first particles
+        float64[6, 8], `SUMS` by face, positions in half widths; int64[6, bins], particles by
+        v_n / width; float64[m, 7], `FACE`, `POSITION` and `VELOCITY` of the first particles
     """
     sums, speeds, width, kept = tallies
     axis = face // 2
@@ -79,19 +92,19 @@ def add_particle(face, position, velocity, half_width, numbers, tallies, n_kept)
     a, b = position[one] / half_width[one], position[two] / half_width[two]
     numbers[face] += 1
     speeds[face, min(int(speed / width), speeds.shape[1] - 1)] += 1
-    sums[face, 0] += 1.0
-    sums[face, 1] += speed
-    sums[face, 2] += speed**2
-    sums[face, 3] += speed**4
-    sums[face, 4] += velocity[one]
-    sums[face, 5] += velocity[two]
-    sums[face, 6] += a * b
-    sums[face, 7] += a * a + b * b
+    sums[face, NUMBER] += 1.0
+    sums[face, SPEED] += speed
+    sums[face, SPEED_2] += speed**2
+    sums[face, SPEED_4] += speed**4
+    sums[face, TANGENT_1] += velocity[one]
+    sums[face, TANGENT_2] += velocity[two]
+    sums[face, PRODUCT] += a * b
+    sums[face, SQUARES] += a * a + b * b
     if n_kept < kept.shape[0]:
-        kept[n_kept, 0] = face
+        kept[n_kept, FACE] = face
         for k in range(3):
-            kept[n_kept, 1 + k] = position[k]
-            kept[n_kept, 4 + k] = velocity[k]
+            kept[n_kept, POSITION + k] = position[k]
+            kept[n_kept, VELOCITY + k] = velocity[k]
         return n_kept + 1
     return n_kept
 
@@ -202,7 +215,8 @@ def injection(*, density, temperature, drift, half_width, step):
 def outer_gas(*, density, temperature, drift, half_width, step):
     """Return the parameters of `move_gas`: mean number, the reach of its piece, the gas, a step."""
     state = gas(temperature, drift, half_width)
-    reach = state[2] + step * (np.abs(state[0]) + REACH * state[1])
+    velocity, thermal, widths = state
+    reach = widths + step * (np.abs(velocity) + REACH * thermal)
     return density * float(np.prod(2.0 * reach)), reach, *state, float(step)
 
 
@@ -242,7 +256,7 @@ def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
         before = stream.copy()
         while True:
             counts, kept = np.zeros((6, 2), np.int64), np.empty((room, 7))
-            tallies = np.zeros((6, 8)), np.zeros((6, 1), np.int64), 1.0, kept
+            tallies = np.zeros((6, len(SUMS))), np.zeros((6, 1), np.int64), 1.0, kept
             n = inject_steps(1, *arguments, counts, tallies, stream)
             if n < room:
                 break
@@ -250,4 +264,5 @@ def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
         steps.append(np.full(n, k))
         rows.append(kept[:n])
     table = np.concatenate(rows)
-    return table[:, 0].astype(np.int64), table[:, 1:4], table[:, 4:], np.concatenate(steps)
+    faces = table[:, FACE].astype(np.int64)
+    return faces, table[:, POSITION:VELOCITY], table[:, VELOCITY:], np.concatenate(steps)

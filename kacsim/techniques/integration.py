@@ -9,13 +9,13 @@ from kacsim import checks
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.samplers import declared
 from kacsim.streams import new_stream, next_bits
+from kacsim.techniques.constants import BLOCK
 from kacsim.variates import uniform
 
 # A bad generator: independent numbers, but a counter of 20 bits, so that they run out.
 EXHAUSTED = 1 << 20
 # Another one: a linear congruential generator of the old textbooks, all residues of 714025.
 PERIOD, FACTOR, SHIFT = 714025, 1366, 150889
-BLOCK = 65536
 
 
 @kernel

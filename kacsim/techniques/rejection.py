@@ -8,11 +8,9 @@ from kacsim import checks
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.streams import new_stream
 from kacsim.techniques import model
-from kacsim.techniques.constants import LAWS, SUPPORT
+from kacsim.techniques.constants import BLOCK, LAWS, SUPPORT
 from kacsim.techniques.exact import CLOSER_TOP, NARROW, TOPS
 from kacsim.variates import uniform
-
-BLOCK = 65536
 
 
 @inlined

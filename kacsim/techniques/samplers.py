@@ -71,6 +71,7 @@ GAS = (
     vector("half_width", "box", "half widths of the cuboid, three", positive),
     Parameter("step", "dt", "duration of a step", positive, kind=real),
 )
+GAS_NAMES = tuple(parameter.name for parameter in GAS)
 TINY_GAS = {
     "density": 1.0, "temperature": 1.0, "drift": [0.1, 0.0, 0.0], "half_width": [1.0] * 3,
     "step": 0.1,

@@ -6,7 +6,7 @@ import numpy as np
 
 from kacsim.kernels.lookup import named
 from kacsim.store import described
-from kacsim.streams import new_stream
+from kacsim.streams import CHUNK, new_stream
 from kacsim.techniques import (
     identity,
     injection,
@@ -16,15 +16,12 @@ from kacsim.techniques import (
     particles,
     rejection,
 )
-from kacsim.techniques.constants import FACES, LAWS
+from kacsim.techniques.constants import FACES, LAWS, POWERS, SUMS
 
-CHUNK = 8192
 CELLS = 10007  # of equal probability; a prime, so that few edges are nodes of a table
-POWERS = (1, 2, 3, 4)
 KEPT = 600  # trials or particles shown in a figure
 SPEED_BINS, SPEED_WIDTH = 80, 0.1  # of the normal velocity, in units of the thermal one
 MOST = 40  # particles of a face in one step that have a count of their own
-SUMS = ("number", "speed", "speed_2", "speed_4", "tangent_1", "tangent_2", "product", "squares")
 
 
 def _draw_law(case, law, fill, progress):

@@ -8,10 +8,11 @@ import math
 
 import pytest
 from law import compare
+from law.algorithms import own_parameters
 
 from kacsim import kac
-from kacsim.checks import ENGINES, STEPPED
-from kacsim.kac import moments
+from kacsim.kac import moments, nanbu_babovsky
+from kacsim.kac.samplers import ENGINES, STEPPED
 
 TIME, RATE = 1.7, 0.9
 # (particles, steps, draws); Nanbu-Babovsky needs at most N / 2 pairs in a step
@@ -20,22 +21,28 @@ MUTANT_DRAWS = 2_000_000
 
 
 def velocities(algorithm, engine, n, steps, n_draws, seed, rate=RATE):
-    step = TIME / steps if algorithm in STEPPED else None
     return kac.draw(
         algorithm,
         n_particles=n,
         time=TIME,
-        time_step=step,
         n_draws=compare.scaled(n_draws),
         seed=seed,
         collision_rate=rate,
         engine=engine,
+        **own_parameters(algorithm, TIME, steps),
     )
 
 
 def exact(algorithm, n, steps, rate=RATE):
-    step = TIME / steps if algorithm in STEPPED else None
-    return kac.fourth_moment(TIME, n, algorithm=algorithm, time_step=step, collision_rate=rate)
+    given = own_parameters(algorithm, TIME, steps)
+    return kac.fourth_moment(TIME, n, algorithm=algorithm, collision_rate=rate, **given)
+
+
+def replaced(n, steps):
+    """Return E v_1**4 of Nanbu-Babovsky's pairs drawn with replacement."""
+    return nanbu_babovsky.fourth_moment_with_replacement(
+        n_particles=n, time=TIME, time_step=TIME / steps, collision_rate=RATE
+    )
 
 
 @pytest.mark.parametrize(("n", "steps", "n_draws"), SHAPES)
@@ -93,7 +100,9 @@ MUTANTS = {
     ),
     "one step more than drawn": (
         ("nanbu_synchronous", "ancestral", 7, 5),
-        lambda: moments.nanbu_synchronous(7, 6, RATE * TIME / 5),
+        lambda: moments.fourth_moment(
+            1.2 * TIME, 7, algorithm="nanbu_synchronous", collision_rate=RATE, time_step=TIME / 5
+        ),
     ),
     "Bird with one collision less": (
         ("bird", "ancestral", 7, None),
@@ -107,11 +116,11 @@ MUTANTS = {
     ),
     "disjoint pairs, replacement expected": (
         ("nanbu_babovsky", "ancestral", 7, 2),
-        lambda: moments.nanbu_babovsky(7, 2, RATE * TIME / 2, replacement=True),
+        lambda: replaced(7, 2),
     ),
     "forward disjoint pairs, replacement expected": (
         ("nanbu_babovsky", "forward", 7, 2),
-        lambda: moments.nanbu_babovsky(7, 2, RATE * TIME / 2, replacement=True),
+        lambda: replaced(7, 2),
     ),
     "rate 0.9 as if it were 1": (
         ("poisson", "ancestral", 7, None),

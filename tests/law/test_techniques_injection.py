@@ -8,13 +8,13 @@ import math
 
 import numpy as np
 import pytest
-from kacsim.checks_techniques import FACES
 from law import compare
 
 from kacsim import techniques
 from kacsim.cases import make_case
 from kacsim.jobs.sampling import run
 from kacsim.techniques import flux, particles
+from kacsim.techniques.constants import FACES
 
 BOX, TEMPERATURE, STEP = [1.1, 1.7, 0.6], 1.7, 0.2
 DRIFTS = [(0.0, 0.0, 0.0), (0.9, -0.4, 0.0)]

@@ -8,13 +8,13 @@ import math
 import numba
 import numpy as np
 import pytest
-from kacsim.checks_techniques import CLOSED, LAWS, SUPPORT
 from law import compare
 from scipy import special
 
 from kacsim import techniques
 from kacsim.streams import new_stream
 from kacsim.techniques import exact, identity, inverse_transform, model, rejection
+from kacsim.techniques.constants import CLOSED, LAWS, SUPPORT
 from kacsim.variates import uniform
 
 N = 1_000_000

@@ -180,7 +180,7 @@ DRAWS = [
     ({"time": math.nan}, "time", "positive finite"),
     ({"time": math.inf}, "time", "positive finite"),
     ({"time": "long"}, "time", "positive finite"),
-    ({"time_step": 0.5}, "time_step", "bird has no time step"),
+    ({"time_step": 0.5}, "time_step", "bird has no such parameter"),
     ({"collision_rate": 0.0}, "collision_rate", "positive finite"),
     ({"collision_rate": math.nan}, "collision_rate", "positive finite"),
     (NANBU | {"time_step": 2.0}, "time_step", "<= 1 (0.8862 * 2.0 = 1.772)"),

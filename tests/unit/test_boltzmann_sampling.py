@@ -11,7 +11,6 @@ import pytest
 from kacsim.boltzmann import (
     bkw_tree,
     estimators,
-    kac_tree,
     literal,
     literal_trap,
     null_collisions,
@@ -20,6 +19,8 @@ from kacsim.boltzmann import (
 from kacsim.boltzmann import sampling as streaming
 from kacsim.cases import make_case
 from kacsim.jobs import sampling
+from kacsim.kac import probe_tree
+from kacsim.samplers import registry
 from kacsim.streams import new_stream
 
 SIZE = {"n_draws": 150, "n_replicates": 3, "seed": 5}
@@ -61,7 +62,7 @@ SAMPLERS = {
     "kac_probe": (
         "speed",
         TREE | {"collision_rate": 0.9},
-        kac_tree.estimate,
+        probe_tree.estimate,
         lambda v, t: (v / math.sqrt(1.5), 0.9 * t, 1.4, 0.9 * 0.3, BUDGET),
     ),
     "trap": (
@@ -100,7 +101,8 @@ def sampled(sampler, firsts=FIRSTS, times=TIMES):
 
 
 def test_every_sampler_is_here():
-    assert set(SAMPLERS) == set(streaming.PROBES)
+    probing = {name for name, one in registry().items() if one.streaming == "sample"}
+    assert set(SAMPLERS) == probing | {"kac_probe"}
 
 
 @pytest.mark.parametrize("sampler", SAMPLERS)

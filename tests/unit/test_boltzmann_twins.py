@@ -13,17 +13,17 @@ import pytest
 
 from kacsim.boltzmann import (
     bkw_tree,
-    kac_tree,
     literal,
     literal_trap,
     null_collisions,
     trap,
     trap_tree,
 )
+from kacsim.kac import probe_tree
 from kacsim.streams import new_stream
 
 BUDGET = 10**6
-LAWS = {"bkw": (bkw_tree.estimate, twins.BKW), "kac": (kac_tree.estimate, twins.KAC)}
+LAWS = {"bkw": (bkw_tree.estimate, twins.BKW), "kac": (probe_tree.estimate, twins.KAC)}
 # (oversampling, onset, time)
 GROWTH = [(1.0, 0.0, 1.3), (1.4, 0.0, 1.1), (1.4, 0.5, 1.3), (2.0, 0.3, 1.1), (2.7, 5.0, 1.3)]
 PHYSICS = {"bkw": (4.9, 0.3, 0.4, 1.0), "breathing": (4.9, 0.3, 0.4, 0.0)}

@@ -4,19 +4,18 @@ import io
 import json
 import shutil
 import subprocess
+import sys
 
 import netCDF4
 import pytest
-from kacsim.jobs.progress import Progress
-from kacsim.meanings import DRAWS, MEANINGS
 
-from kacsim import boltzmann, cli, kac, plan, store
+from kacsim import boltzmann, cli, commands, kac, plan, store
 from kacsim.cases import make_case
 from kacsim.commands import estimate as estimating
-from kacsim.commands import verify
+from kacsim.commands import sample, verify
 from kacsim.jobs import sampling
 from kacsim.kernels.provenance import ROOT
-from kacsim.samplers import SAMPLERS
+from kacsim.samplers import registry
 
 CONFIG = ROOT / "config" / "config.yaml"
 
@@ -26,13 +25,47 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_every_parameter_has_a_meaning():
-    names = {name for parameters in SAMPLERS.values() for name in parameters}
-    assert names == set(MEANINGS)
-    assert set(SAMPLERS) == set(DRAWS)
+def test_every_parameter_has_a_meaning_in_the_help(capsys):
+    """Of every sampler; line ends and columns of the help aside."""
+    for sampler in registry().values():
+        shown = help_of(capsys, "sample", sampler.name)
+        assert f"Draw {sampler.draws}." in shown
+        for parameter in sampler.parameters_of({}):
+            assert len(parameter.meaning) > 10
+            assert parameter.meaning in shown
+            assert f"--{parameter.name.replace('_', '-')} " in shown
 
 
-@pytest.mark.parametrize("command", cli.COMMANDS)
+def help_of(capsys, *words):
+    with pytest.raises(SystemExit) as end:
+        cli.main([*words, "--help"])
+    assert end.value.code == 0
+    return " ".join(capsys.readouterr().out.split())
+
+
+# (sampler, parameter, what its help must say, what it must not: it was so, and wrong)
+HELP = [
+    ("kac", "keep_above", "first values of v_1 above this", "|v_1|"),
+    ("sphere_points", "generator", "good, exhausted, congruential or sobol", ""),
+    ("kac_probe", "speed", "in the unit of the paper", "RMS"),
+    ("kac_probe", "time", "of the Kac paper", "collision times"),
+    ("bkw", "speed", "in RMS velocities per axis", ""),
+    ("bkw", "time", "in mean collision times", "Kac"),
+    ("trap", "time", "in 1 / omega", "Kac"),
+    ("inversion", "rate", "rate of the law", "exponential"),
+]
+
+
+@pytest.mark.parametrize(("sampler", "name", "says", "says_not"), HELP)
+def test_help_is_true(sampler, name, says, says_not, capsys):
+    shown = help_of(capsys, "sample", sampler)
+    _, _, mine = shown.rpartition(f"--{name.replace('_', '-')} {name.upper()} ")
+    mine = mine.split(" --")[0]
+    assert says in mine
+    assert not says_not or says_not not in mine
+
+
+@pytest.mark.parametrize("command", commands.NAMES)
 def test_help_shows_an_example(command, capsys):
     with pytest.raises(SystemExit) as end:
         cli.main([command, "--help"])
@@ -110,7 +143,7 @@ def test_estimate_is_the_function(words, function, given, capsys):
 
 def test_all_estimators_are_commands():
     public = {name for module in (kac, boltzmann) for name in module.__all__}
-    functions = {function.__name__ for function, _ in estimating.ESTIMATORS.values()}
+    functions = {function for _, function, _ in estimating.ESTIMATORS.values()}
     assert functions == {name for name in public if name.startswith("estimate_")}
 
 
@@ -177,26 +210,31 @@ def test_verify_wants_cases(number, capsys):
     assert "--cases = " in capsys.readouterr().err
 
 
-def test_progress_on_a_terminal_shows_share_throughput_and_time_left():
-    ticks = iter([0.0, 0.1, 2.0, 2.1])
-    stream = Terminal()
-    line = Progress(4000, "kac-bird", stream, lambda: next(ticks))
-    line(100)
-    assert stream.getvalue() == ""
-    line(1000)
-    line(1100)
-    assert stream.getvalue().endswith("kac-bird:  25 %  500 draws/s  6 s left")
-    line.end()
-    assert stream.getvalue().endswith("\r\033[K")
+def of_4000_draws():
+    given = {"algorithm": "bird", "engine": "ancestral", "n_particles": 7, "time": 1.7}
+    return make_case("kac", **given, n_draws=1000, n_replicates=4, seed=9)
 
 
-def test_progress_is_silent_in_a_log():
-    stream = io.StringIO()
-    ticks = iter(range(100))
-    line = Progress(10, "a", stream, lambda: next(ticks))
-    line(5)
-    line.end()
-    assert stream.getvalue() == ""
+def test_progress_on_a_terminal_shows_share_throughput_and_time_left(monkeypatch):
+    """A quarter is done after 1.9 seconds of a made-up clock."""
+    clock = [0.0]
+    monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.setattr("tqdm.std.time", lambda: clock[0])
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    with sample.progress(of_4000_draws()) as advance:
+        clock[0] = 1.9
+        advance(1000)
+        shown = sys.stderr.getvalue().split("\r")[-1]
+    assert shown.startswith("kac-bird-ancestral-n7-t1.7-4x1000:  25%|")
+    assert shown.rstrip().endswith("| 1.00k/4.00k [00:01<00:05, 526draws/s]")
+    assert sys.stderr.getvalue().split("\r")[-2].strip() == ""  # the line is taken away
+
+
+def test_progress_is_silent_in_a_log(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    with sample.progress(of_4000_draws()) as advance:
+        sampling.run(of_4000_draws(), advance)
+    assert sys.stderr.getvalue() == ""
 
 
 def test_samples_as_text(tmp_path, drawn):

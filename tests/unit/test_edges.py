@@ -4,23 +4,19 @@ import math
 
 import numpy as np
 import pytest
+from law.algorithms import own_parameters
 
 from kacsim import boltzmann, kac
-from kacsim.checks import STEPPED
 from kacsim.kac import exact
 
 SIZE = {"n_draws": 400, "seed": 3}
-
-
-def steps(algorithm, step):
-    return {"time_step": step} if algorithm in STEPPED else {}
 
 
 @pytest.mark.parametrize("engine", ["forward", "ancestral"])
 @pytest.mark.parametrize("algorithm", kac.ALGORITHMS)
 def test_no_time_leaves_the_initial_law(algorithm, engine):
     """t = 1e-9: collisions are rarer than one in 10**6; KS against the law at t = 0, D < 0.1."""
-    given = {"n_particles": 2, "time": 1e-9} | steps(algorithm, 5e-10)
+    given = {"n_particles": 2, "time": 1e-9} | own_parameters(algorithm, 1e-9, 2)
     drawn = np.sort(kac.draw(algorithm, engine=engine, **given, **SIZE))
     gap = np.abs(exact.cumulative(drawn, 0.0) - (np.arange(400) + 0.5) / 400).max()
     if algorithm == "bird":
@@ -33,7 +29,7 @@ def test_no_time_leaves_the_initial_law(algorithm, engine):
 @pytest.mark.parametrize("algorithm", ["bird", "poisson", "poisson_printed", "nanbu_babovsky"])
 def test_a_long_time_keeps_the_energy(algorithm, engine):
     """t = 60 at N = 7: E[v**2] stays 3/2; 4 standard errors of 400 draws are at most 0.6."""
-    given = {"n_particles": 7, "time": 60.0} | steps(algorithm, 0.5)
+    given = {"n_particles": 7, "time": 60.0} | own_parameters(algorithm, 60.0, 120)
     drawn = kac.draw(algorithm, engine=engine, **given, **SIZE)
     assert abs((drawn**2).mean() - 1.5) < 0.6
 
@@ -46,8 +42,8 @@ def test_an_endless_ancestry_is_refused(n_particles):
 
 @pytest.mark.parametrize("algorithm", kac.ALGORITHMS)
 def test_one_draw(algorithm):
-    given = {"n_particles": 50, "time": 1.0, "n_draws": 1, "seed": 1} | steps(algorithm, 0.5)
-    assert kac.draw(algorithm, **given).shape == (1,)
+    given = {"n_particles": 50, "time": 1.0} | own_parameters(algorithm, 1.0, 2)
+    assert kac.draw(algorithm, n_draws=1, seed=1, **given).shape == (1,)
 
 
 def test_a_tolerance_near_rounding_ends_or_is_refused():

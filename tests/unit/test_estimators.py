@@ -68,7 +68,7 @@ def test_a_volume_is_a_binomial_share():
     share, error = techniques.sphere_volume(2, 50, seed=1)
     counts = np.empty(1, np.int64)
     stream = new_stream(1, "techniques.sphere_volume")
-    integration.count_random(counts, np.array([50]), 2, stream)
+    integration.count_good(counts, np.array([50]), 2, stream)
     assert 0 < counts[0] < 50
     assert share == counts[0] / 50
     assert error == pytest.approx(math.sqrt(share * (1 - share) / 50))

@@ -1,19 +1,22 @@
 """The kept report: what is copied, what is refused, and what is said of it later."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
-from kacsim import cli, plan, store
-from kacsim.kernels import jit, provenance
+from kacsim import cli, files, plan, store
+from kacsim.cases import tiny_cases
+from kacsim.kernels import provenance, sources
 from kacsim.report import kept
 
+CASES = {case.id: case for case in tiny_cases()}
 HTML = '<a href="../datasets/kac_fig4.nc">dataset</a> <a href="#here">here</a>'
 
 
 @pytest.fixture
 def results(tmp_path):
-    """Return the results of a made-up full run of one item, and its settings."""
+    """Return the results of a made-up full run of one item, and its plan."""
     pytest.importorskip("xarray")
     folder = tmp_path / "results"
     settings = {"kac_fig4": {"seed": 1, "n_draws": 10, "time": 2.0}}
@@ -21,56 +24,57 @@ def results(tmp_path):
     for name, one in settings.items():
         path = folder / "datasets" / f"{name}.nc"
         store.write(variables, path, title="t", settings=one)
-    for module in kept.KERNEL_MODULES:
-        path = folder / "kernels" / module.replace(".py", ".txt")
+    for case in CASES.values():
+        path = tmp_path / case.compiled()
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(provenance.source_hash(*jit.kernel_sources(module)) + "\n")
+        path.write_text(sources.code(case.roots) + "\n")
     (folder / "report").mkdir()
     (folder / "report/report.html").write_text(HTML, encoding="utf-8")
-    return folder, settings
+    return folder, SimpleNamespace(settings=settings, cases=CASES)
 
 
 def test_a_kept_report_stands_alone_and_knows_what_made_it(results, tmp_path):
-    folder, settings = results
-    assert "kept" in kept.keep(folder, settings, tmp_path / "latest")
+    folder, full = results
+    assert "kept" in kept.keep(folder, full, tmp_path / "latest")
     html = (tmp_path / "latest/report.html").read_text(encoding="utf-8")
     assert html == 'dataset <a href="#here">here</a>'
     facts = json.loads((tmp_path / "latest/kept.json").read_text(encoding="utf-8"))
-    assert facts["configuration"] == settings
+    assert facts["configuration"] == full.settings
     assert provenance.commit() in facts["sources"][0]
-    assert set(facts["kernels"]) == set(kept.KERNEL_MODULES)
+    assert set(facts["kernels"]) == {case.unit for case in tiny_cases()}
 
 
 def test_a_run_with_other_settings_is_not_kept(results, tmp_path):
-    folder, settings = results
-    settings["kac_fig4"] = settings["kac_fig4"] | {"n_draws": 1000}
-    with pytest.raises(store.StoreError, match="only a full run is kept"):
-        kept.keep(folder, settings, tmp_path / "latest")
+    folder, full = results
+    full.settings["kac_fig4"] = full.settings["kac_fig4"] | {"n_draws": 1000}
+    with pytest.raises(files.StoreError, match="only a full run is kept"):
+        kept.keep(folder, full, tmp_path / "latest")
     assert not (tmp_path / "latest").exists()
 
 
 def test_a_report_that_is_too_large_is_not_kept(results, tmp_path):
-    folder, settings = results
-    (folder / "report/report.html").write_text("x" * (kept.LARGEST + 1), encoding="utf-8")
-    with pytest.raises(store.StoreError, match="at most 5000000"):
-        kept.keep(folder, settings, tmp_path / "latest")
+    folder, full = results
+    (folder / "report/report.html").write_text("x" * (kept.LARGEST_REPORT + 1), encoding="utf-8")
+    with pytest.raises(files.StoreError, match="at most 5000000"):
+        kept.keep(folder, full, tmp_path / "latest")
 
 
 def test_changed_kernels_are_named(results, tmp_path):
-    folder, settings = results
+    folder, full = results
     assert "no report is kept yet" in kept.sentence(tmp_path / "latest")
-    kept.keep(folder, settings, tmp_path / "latest")
+    kept.keep(folder, full, tmp_path / "latest")
     assert kept.sentence(tmp_path / "latest").endswith(
         "no kernel has changed since the kept report"
     )
-    (folder / "kernels/kac/bird.txt").write_text("0123456789abcdef\n")
-    kept.keep(folder, settings, tmp_path / "latest")
-    assert kept.sentence(tmp_path / "latest").endswith("since the kept report: kac/bird.py")
+    bird = next(case for case in tiny_cases() if case.kernel_module == "kacsim.kac.bird")
+    (tmp_path / bird.compiled()).write_text("0123456789abcdef\n")
+    kept.keep(folder, full, tmp_path / "latest")
+    assert kept.sentence(tmp_path / "latest").endswith(f"since the kept report: {bird.unit}")
 
 
 def test_the_kept_report_of_this_checkout_is_small_enough():
     folder = provenance.ROOT / "reports/latest"
-    assert (folder / kept.REPORT).stat().st_size <= kept.LARGEST
+    assert (folder / kept.REPORT).stat().st_size <= kept.LARGEST_REPORT
     assert {"sources", "kernels", "configuration"} <= set(
         json.loads((folder / kept.FACTS).read_text())
     )

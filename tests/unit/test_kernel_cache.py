@@ -1,8 +1,10 @@
-"""Compiled kernels: kept, checked before they are loaded, and compiled again if damaged."""
+"""Compiled kernels: kept, checked before they are loaded, compiled again if damaged, and where."""
 
 import os
+import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -10,55 +12,117 @@ from kacsim.kernels.provenance import ROOT
 
 DRAW = """
 import numpy as np
-from kacsim.boltzmann import null_collisions
 from kacsim.streams import new_stream
-values, nodes = np.empty(3), np.empty(3, np.int64)
-null_collisions.estimate(values, nodes, 1.7, 1.3, 10**6, new_stream(5, "test"))
+from kacsim.techniques.inverse_transform import through_table
+values = np.empty(3)
+through_table(values, np.array([0.0, 0.7, 1.9]), new_stream(5, "test"))
 print(values.tobytes().hex())
-print(sum(null_collisions.estimate.stats.cache_hits.values()))
+print(sum(through_table.stats.cache_hits.values()))
 """
 
 
-@pytest.fixture
-def draw(tmp_path):
-    """Return a function that draws in a new process: (bits, loaded from the cache, stderr)."""
-
-    def run():
-        environment = os.environ | {"KACSIM_CACHE_DIR": str(tmp_path / "kernels")}
-        command = [sys.executable, "-c", DRAW]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr
-        bits, hits = done.stdout.split()
-        return bits, hits == "1", done.stderr
-
-    return run
+def draw(**given):
+    """Draw in a new process with some environment: (bits, loaded from the cache, stderr)."""
+    command = [sys.executable, "-c", DRAW]
+    environment = os.environ | {name: str(value) for name, value in given.items()}
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    bits, hits = done.stdout.split()
+    return bits, hits == "1", done.stderr
 
 
 def compiled(folder, suffix):
-    return sorted(folder.rglob(f"null_collisions.estimate*.{suffix}"))
+    return sorted(folder.rglob(f"inverse_transform.through_table*.{suffix}"))
 
 
-def test_kernels_are_kept_and_damaged_ones_compiled_again(draw, tmp_path):
-    first, loaded, _ = draw()
-    assert not loaded
-    again, loaded, message = draw()
-    assert (again, loaded, message) == (first, True, "")
+def stray():
+    """Return the compiled kernels beside the sources."""
+    return [str(file) for file in (ROOT / "kacsim").rglob("*.nb[ic]")]
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    """Return (a folder of kernels that was not there before, the bits that they draw)."""
+    folder = tmp_path_factory.mktemp("first") / "new" / "kernels"
+    bits, loaded, message = draw(KACSIM_CACHE_DIR=folder)
+    assert (loaded, message) == (False, "")
+    return folder, bits
+
+
+@pytest.fixture
+def kernels(first, tmp_path):
+    """Return a folder of kernels of this test."""
+    return shutil.copytree(first[0], tmp_path / "kernels")
+
+
+def test_kernels_are_kept_and_damaged_ones_compiled_again(kernels, first):
+    _, bits = first
+    assert draw(KACSIM_CACHE_DIR=kernels) == (bits, True, "")
     for suffix in ("nbc", "nbi"):
-        (file,) = compiled(tmp_path / "kernels", suffix)
+        (file,) = compiled(kernels, suffix)
         broken = bytearray(file.read_bytes())
         broken[len(broken) // 2] ^= 0x10
         file.write_bytes(broken)
-        bits, loaded, message = draw()
-        assert (bits, loaded) == (first, False)
+        again, loaded, message = draw(KACSIM_CACHE_DIR=kernels)
+        assert (again, loaded) == (bits, False)
         assert "damaged kernels are compiled again" in message
-    (file,) = compiled(tmp_path / "kernels", "nbc")
+    (file,) = compiled(kernels, "nbc")
     file.write_bytes(b"")
-    assert draw()[0] == first
-    assert draw()[1], "sealed again"
+    assert draw(KACSIM_CACHE_DIR=kernels)[0] == bits
+    assert draw(KACSIM_CACHE_DIR=kernels)[1], "sealed again"
+    assert stray() == []
 
 
-def test_kernels_without_checksums_are_left_alone(draw, tmp_path):
-    first, _, _ = draw()
-    (seal,) = (tmp_path / "kernels").rglob("checksums.json")
-    seal.unlink()
-    assert draw() == (first, True, "")
+def test_kernels_without_checksums_are_left_alone(kernels, first):
+    (file,) = compiled(kernels, "nbc")
+    (file.parent / "checksums.json").unlink()
+    assert draw(KACSIM_CACHE_DIR=kernels) == (first[1], True, "")
+
+
+def unusable(kind, tmp_path):
+    """Return a folder for kernels that cannot be made, or cannot be written."""
+    if kind == "in a file":
+        (tmp_path / "file").write_text("")
+        return tmp_path / "file" / "kernels"
+    if kind == "a file":
+        (tmp_path / "kernels").write_text("")
+        return tmp_path / "kernels"
+    return Path("/proc")  # it is there, and nobody can write to it
+
+
+@pytest.mark.parametrize("kind", ["in a file", "a file", "not writable"])
+def test_a_folder_that_cannot_be_used_is_told_and_replaced(kind, first, tmp_path):
+    """One line, the same bits, and nothing stays: not in the temporary folder, not here.
+
+    numba would go, silently, to __pycache__ beside the sources, and not see edited callees there.
+    """
+    wanted, temporary = unusable(kind, tmp_path), tmp_path / "temporary"
+    temporary.mkdir()
+    bits, loaded, message = draw(KACSIM_CACHE_DIR=wanted, TMPDIR=temporary)
+    assert (bits, loaded) == (first[1], False)
+    (line,) = message.splitlines()
+    assert line.startswith(f"{wanted}: cannot be written (")
+    assert f"kernels are compiled into {temporary}/kacsim-" in line
+    assert "KACSIM_CACHE_DIR names another folder" in line
+    assert os.listdir(temporary) == []
+    assert stray() == []
+
+
+def test_a_folder_without_permission_is_replaced(first, tmp_path):
+    """As root one may write everywhere: then the kernels are there."""
+    wanted = tmp_path / "wanted"
+    wanted.mkdir(mode=0o500)
+    bits, _, message = draw(KACSIM_CACHE_DIR=wanted)
+    assert bits == first[1]
+    if os.access(wanted, os.W_OK):
+        assert compiled(wanted, "nbc")
+    else:
+        assert "cannot be written (Permission denied)" in message
+        assert os.listdir(wanted) == []
+    assert stray() == []
+
+
+def test_without_a_name_the_users_cache_is_taken(first, tmp_path):
+    shutil.copytree(first[0], tmp_path / "kacsim")
+    found = draw(KACSIM_CACHE_DIR="", XDG_CACHE_HOME=tmp_path)
+    assert found == (first[1], True, "")

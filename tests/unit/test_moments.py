@@ -11,10 +11,13 @@ import math
 
 import numpy as np
 import pytest
+from law.algorithms import own_parameters
 from scipy import linalg
 
-from kacsim import checks, kac, samplers
-from kacsim.kac import draws, moments
+from kacsim import kac
+from kacsim.kac import nanbu_babovsky
+from kacsim.kac.samplers import TITLES
+from kacsim.kernels.lookup import named
 
 ANGLES = np.array([1, 3, 5, 7]) * math.pi / 8
 RATE, TIME = 0.9, 1.7
@@ -125,8 +128,14 @@ STEPS = {
 
 
 def exactly(algorithm, n, steps=None):
-    step = TIME / steps if steps else None
-    return kac.fourth_moment(TIME, n, algorithm=algorithm, time_step=step, collision_rate=RATE)
+    given = own_parameters(algorithm, TIME, steps)
+    return kac.fourth_moment(TIME, n, algorithm=algorithm, collision_rate=RATE, **given)
+
+
+def replaced(n, steps):
+    return nanbu_babovsky.fourth_moment_with_replacement(
+        n_particles=n, time=TIME, time_step=TIME / steps, collision_rate=RATE
+    )
 
 
 @pytest.mark.parametrize(("n", "steps"), [(2, 2), (2, 5), (3, 5), (3, 17)])
@@ -146,8 +155,7 @@ def test_stepped_moments_with_more_particles(algorithm, n):
 def test_replacement_by_enumeration(n, steps):
     p = RATE * TIME / steps
     total = np.linalg.matrix_power(replaced_step(n, p), steps)
-    mine = moments.nanbu_babovsky(n, steps, p, replacement=True)
-    assert mine == pytest.approx(fourth(total, n), rel=1e-12)
+    assert replaced(n, steps) == pytest.approx(fourth(total, n), rel=1e-12)
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 5])
@@ -184,7 +192,7 @@ def test_algorithms_differ(n):
     """Negative control of the enumeration: every algorithm has a moment of its own."""
     values = [exactly(algorithm, n) for algorithm in ("poisson", "poisson_printed", "bird")]
     values += [exactly(algorithm, n, 2) for algorithm in STEPS]
-    values.append(moments.nanbu_babovsky(n, 2, RATE * TIME / 2, replacement=True))
+    values.append(replaced(n, 2))
     assert min(abs(a - b) for a, b in itertools.combinations(values, 2)) > 0.01
 
 
@@ -205,9 +213,10 @@ def test_equilibrium_of_the_process_is_that_of_the_beta_law_on_average(n):
     assert kac.fourth_moment(0.0, n) == 15 / 4
 
 
-def test_the_lists_that_name_an_algorithm_agree():
-    assert set(draws.KERNELS) == set(samplers.ALGORITHM_FILES) == set(checks.ALGORITHMS)
-    assert set(checks.ALGORITHMS) <= set(checks.NAMES)
-    for name in checks.ALGORITHMS:
-        step = {"time_step": 0.5} if name in checks.STEPPED else {}
-        assert 3.0 < kac.fourth_moment(1.0, 7, algorithm=name, **step) < 8.0
+@pytest.mark.parametrize("algorithm", kac.ALGORITHMS)
+def test_every_algorithm_is_a_module_of_its_name(algorithm):
+    for attribute in ("arguments", "forward", "ancestral", "fourth_moment"):
+        assert callable(named("kacsim.kac", algorithm, attribute))
+    assert TITLES[algorithm]
+    given = own_parameters(algorithm, 1.0, 2)
+    assert 3.0 < kac.fourth_moment(1.0, 7, algorithm=algorithm, **given) < 8.0

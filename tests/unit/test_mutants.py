@@ -1,25 +1,13 @@
 """The table of slips fits the sources, and a slip that no test sees is told. No statistics."""
 
 import ast
-import importlib.util
 import shutil
-from pathlib import Path
 
+import mutants as driver
 import pytest
 
-DRIVER = Path(__file__).parent.parent / "mutants.py"
 
-
-@pytest.fixture(scope="module")
-def driver():
-    """Return tests/mutants.py; tests/law has a module of the same name."""
-    specification = importlib.util.spec_from_file_location("mutants_driver", DRIVER)
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module
-
-
-def test_every_slip_applies_and_is_python(driver):
+def test_every_slip_applies_and_is_python():
     mutants = driver.load()
     assert len(mutants) >= 40
     for mutant in mutants:
@@ -29,14 +17,14 @@ def test_every_slip_applies_and_is_python(driver):
         ast.parse(source.replace(mutant.old, mutant.new))
 
 
-def test_tests_to_run_first_exist(driver):
+def test_tests_to_run_first_exist():
     for mutant in driver.load():
         files = [word for word in " ".join(mutant.tests).split() if word.startswith("tests/")]
         assert files, mutant.name
         assert all((driver.ROOT / file.split("::")[0]).exists() for file in files), mutant.name
 
 
-def test_a_source_that_has_changed_is_told(driver, tmp_path):
+def test_a_source_that_has_changed_is_told(tmp_path):
     mutant = driver.load()[0]
     path = mutant.path(tmp_path)
     path.parent.mkdir(parents=True)
@@ -47,7 +35,7 @@ def test_a_source_that_has_changed_is_told(driver, tmp_path):
     assert mutant.stale(tmp_path) == ""
 
 
-def verdict(driver, capsys, monkeypatch, *answers):
+def verdict(capsys, monkeypatch, *answers):
     """Judge the first mutant on a copy whose runs of tests end as given."""
     runs = iter(answers)
     monkeypatch.setattr(driver.Copy, "failing", lambda *words, first=True: next(runs))
@@ -58,17 +46,17 @@ def verdict(driver, capsys, monkeypatch, *answers):
 PASSED, FAILED = (0, [], ""), (1, ["tests/a.py::test_b"], "")
 
 
-def test_a_slip_that_all_tests_pass_survives(driver, capsys, monkeypatch):
-    status, told = verdict(driver, capsys, monkeypatch, PASSED, PASSED)
+def test_a_slip_that_all_tests_pass_survives(capsys, monkeypatch):
+    status, told = verdict(capsys, monkeypatch, PASSED, PASSED)
     assert (status, "SURVIVED" in told, "0 caught, 1 survived" in told) == (1, True, True)
 
 
-def test_a_slip_is_caught_by_a_test_that_passes_without_it(driver, capsys, monkeypatch):
-    status, told = verdict(driver, capsys, monkeypatch, PASSED, FAILED, PASSED)
+def test_a_slip_is_caught_by_a_test_that_passes_without_it(capsys, monkeypatch):
+    status, told = verdict(capsys, monkeypatch, PASSED, FAILED, PASSED)
     assert (status, "tests/a.py::test_b" in told, "1 caught" in told) == (0, True, True)
 
 
 @pytest.mark.parametrize("answers", [(FAILED, FAILED), ((2, [], "no module"),)])
-def test_a_test_that_fails_anyway_catches_nothing(answers, driver, capsys, monkeypatch):
-    status, told = verdict(driver, capsys, monkeypatch, *answers)
+def test_a_test_that_fails_anyway_catches_nothing(answers, capsys, monkeypatch):
+    status, told = verdict(capsys, monkeypatch, *answers)
     assert (status, "0 caught" in told, "1 broken" in told) == (1, True, True)

@@ -4,9 +4,8 @@ import os
 
 import pytest
 
-from kacsim import cli, plan, store
-from kacsim.jobs import times
-from kacsim.report import browser, printing
+from kacsim import cli, files, plan
+from kacsim.report import browser, printing, runtime
 
 FAKE = """#!/bin/sh
 for word; do case $word in --print-to-pdf=*) pdf=${word#*=};; esac; done
@@ -50,7 +49,7 @@ def test_a_report_is_printed_whole(fake):
 
 def test_a_browser_that_fails_is_named_with_what_it_said(fake):
     page, pdf = fake("echo no display; exit 1")
-    with pytest.raises(store.StoreError, match="chromium: printed nothing: no display"):
+    with pytest.raises(files.StoreError, match="chromium: printed nothing: no display"):
         printing.write(page, pdf)
     assert os.listdir(pdf.parent) == []
 
@@ -58,7 +57,7 @@ def test_a_browser_that_fails_is_named_with_what_it_said(fake):
 def test_a_browser_that_hangs_is_ended(fake, monkeypatch):
     page, pdf = fake("sleep 60")
     monkeypatch.setattr(printing, "SECONDS", 0.2)
-    with pytest.raises(store.StoreError, match=r"no answer within 0\.2 s"):
+    with pytest.raises(files.StoreError, match=r"no answer within 0\.2 s"):
         printing.write(page, pdf)
 
 
@@ -88,17 +87,17 @@ def test_run_times_have_a_page(tmp_path):
 
 
 def test_run_times_without_jobs_say_so(tmp_path):
-    times.write(tmp_path / "runtime.html", tmp_path)
+    runtime.write(tmp_path / "runtime.html", tmp_path)
     assert "No job has left its time." in (tmp_path / "runtime.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
-    ("files", "values", "command"),
+    ("chosen", "values", "command"),
     [
         ([], {}, ""),
         ([plan.ROOT / "config/smoke.yaml"], {}, "--configfile config/smoke.yaml"),
         (["/a b/c.yaml"], {"seed": 7}, "--configfile '/a b/c.yaml' --config seed=7"),
     ],
 )
-def test_the_page_tells_the_command_of_this_configuration(files, values, command):
-    assert plan.recipe_options(files, values) == command
+def test_the_page_tells_the_command_of_this_configuration(chosen, values, command):
+    assert plan.recipe_options(chosen, values) == command

@@ -1,5 +1,6 @@
 """The plan: case ids, items that share cases, defaults, and the command line's round trip."""
 
+import dataclasses
 import json
 import math
 import re
@@ -9,8 +10,8 @@ import pytest
 import yaml
 
 from kacsim import cli, items, plan, schema, store
-from kacsim.cases import Case, make_case
-from kacsim.jobs import sampling
+from kacsim.cases import Case, make_case, tiny_cases
+from kacsim.jobs import sampling, stages
 from kacsim.kernels.provenance import ROOT
 
 CONFIG = ROOT / "config" / "config.yaml"
@@ -61,7 +62,6 @@ def test_case_ids_are_stable(case, name):
         {"n_particles": 51},
         {"time": 2.5},
         {"time": 20.0},
-        {"time_step": 0.5},
         {"collision_rate": 0.9},
         {"keep_above": 2.0},
     ],
@@ -69,6 +69,25 @@ def test_case_ids_are_stable(case, name):
 )
 def test_every_parameter_is_in_the_id(change):
     assert case_of(**change).id != case_of().id
+
+
+def test_the_step_is_in_the_id():
+    ids = {case_of(algorithm="nanbu_sequential", time_step=step).id for step in (0.5, 0.25, 0.2)}
+    assert len(ids) == 3
+
+
+@pytest.mark.parametrize("case", [*tiny_cases()], ids=lambda case: case.id)
+def test_every_declared_parameter_is_in_the_id_and_in_the_words(case):
+    """Of every sampler, variant and engine: another value of one parameter, another case."""
+    ids, words = {case.id}, {case.arguments()}
+    names = case.parameters.keys() - {"algorithm"}  # it has modules and parameters of its own
+    for name in names:
+        value = case.parameters[name]
+        other = [*value, 7.5] if isinstance(value, list) else 7.5 if value != 7.5 else 6.5
+        changed = dataclasses.replace(case, parameters=case.parameters | {name: other})
+        ids.add(changed.id)
+        words.add(changed.arguments())
+    assert len(ids) == len(words) == 1 + len(names)
 
 
 def test_sizes_are_in_the_id_and_the_seed_is_not():
@@ -169,12 +188,13 @@ def test_arguments_round_trip_through_the_command_line(full, monkeypatch, tmp_pa
 
 
 @pytest.mark.parametrize("name", items.NAMES)
-def test_sources_of_every_stage_exist(name, full):
-    """A misspelt source would never start a rerun."""
-    files = [*plan.reduce_sources(name), *plan.draw_sources(name)]
-    files += [source for case in full.cases_of[name] for source in case.sources()]
-    for file in files:
-        assert (ROOT / "kacsim" / file).exists(), file
+def test_roots_of_every_stage_exist(name, full):
+    """A misspelt root would never start a rerun: its code is refused."""
+    roots = {stages.reduce_roots(name), stages.draw_roots(name)}
+    roots |= {stages.merge_roots(case) for case in full.cases_of[name]}
+    roots |= {stages.sample_roots(case) for case in full.cases_of[name]}
+    for one in roots:
+        assert re.fullmatch(r"[0-9a-f]{16}", stages.code(one))
 
 
 def test_longer_cases_start_first():

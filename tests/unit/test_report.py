@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
-from kacsim import store
+from kacsim import files, store
 from kacsim.report import page as report
 
 SVG = """<?xml version="1.0" encoding="utf-8" standalone="no"?>
@@ -275,18 +275,18 @@ def test_a_report_without_claims_says_so(write):
 
 def test_a_missing_figure_is_named(write):
     (write.folder / "figures/kac_fig4.svg").unlink()
-    with pytest.raises(store.StoreError, match=r"kac_fig4\.svg: cannot be read"):
+    with pytest.raises(files.StoreError, match=r"kac_fig4\.svg: cannot be read"):
         write()
 
 
 def test_a_broken_figure_is_named(write):
     (write.folder / "figures/kac_fig4.svg").write_text("<svg", encoding="utf-8")
-    with pytest.raises(store.StoreError, match=r"kac_fig4\.svg: is not SVG"):
+    with pytest.raises(files.StoreError, match=r"kac_fig4\.svg: is not SVG"):
         write()
 
 
 def test_an_item_without_texts_is_named(write):
     (write.folder / "texts/captions.yaml").write_text("kac_fig1: {}", encoding="utf-8")
-    with pytest.raises(store.StoreError, match=r"captions\.yaml: has no entry kac_fig4"):
+    with pytest.raises(files.StoreError, match=r"captions\.yaml: has no entry kac_fig4"):
         write()
     assert not (write.folder / "report").exists()

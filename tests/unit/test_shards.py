@@ -6,30 +6,39 @@ from pathlib import Path
 
 import pytest
 
-from kacsim import cli, plan, store
+from kacsim import cli, files, plan, store
 from kacsim.boltzmann import sampling as boltzmann_sampling
-from kacsim.cases import make_case
+from kacsim.cases import make_case, tiny_cases
 from kacsim.jobs import sampling, shards
 from kacsim.kac import sampling as kac_sampling
 from kacsim.kernels.provenance import ROOT
-from kacsim.samplers import LISTS, SAMPLERS, UNSHARDED
+from kacsim.samplers import registry
 from kacsim.techniques import sampling as techniques_sampling
 
 CONFIG = ROOT / "config" / "config.yaml"
 SIZE = {"n_draws": 60, "n_replicates": 5, "seed": 3}
-PROBES = {"n_particles": 4, "tolerance": 0.1, "initial": "bkw", "keep_above": 0.5}
-KAC = {"algorithm": "poisson", "engine": "ancestral"}
 LIMIT = 130  # of first and largest values: fewer than a case draws, more than one shard of five
+KAC = ("kac", "poisson", "ancestral")
+
+
+def sized(tiny, **size):
+    """Return a tiny case of several draws and replicates, at four probes if it has a grid."""
+    given = {name: [1.0, 1.5] if v == [1.0] else v for name, v in tiny.parameters.items()}
+    if "keep_above" in given:
+        given["keep_above"] = 0.5
+    return make_case(tiny.name, **given, **(SIZE | size))
+
+
+# Every sampler, algorithm and engine.
+CASES = {}
+for tiny in tiny_cases():
+    words = [v for name, v in tiny.parameters.items() if name in ("algorithm", "engine")]
+    CASES.setdefault((tiny.name, *words), tiny)
+SHARDED = {key: tiny for key, tiny in CASES.items() if tiny.sampler.by_replicate}
 
 
 def case_of(sampler, **size):
-    if sampler in sampling.TINY:
-        return make_case(sampler, **sampling.TINY[sampler][0], **(SIZE | size))
-    given = {name: value for name, value in PROBES.items() if name in SAMPLERS[sampler]}
-    for name in ("speed", "time", "threshold", "majorant", "radius", "oversampling"):
-        if name in SAMPLERS[sampler]:
-            given[name] = [1.0, 1.5] if name in LISTS.get(sampler, ()) else 1.0
-    return make_case(sampler, **given, **(KAC if sampler == "kac" else {}), **(SIZE | size))
+    return sized(CASES[KAC if sampler == "kac" else (sampler,)], **size)
 
 
 def written(variables, case, path):
@@ -47,12 +56,12 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(kac_sampling, "KEPT", LIMIT)
     monkeypatch.setattr(boltzmann_sampling, "TOP", LIMIT)
-    monkeypatch.setattr(techniques_sampling, "RECORDED", LIMIT)
+    monkeypatch.setattr(techniques_sampling, "KEPT", LIMIT)
 
 
-@pytest.mark.parametrize("sampler", [name for name in SAMPLERS if name not in UNSHARDED])
-def test_any_number_of_shards_gives_the_same_bytes(sampler, folder):
-    case = case_of(sampler)
+@pytest.mark.parametrize("key", SHARDED, ids="-".join)
+def test_any_number_of_shards_gives_the_same_bytes(key, folder):
+    case = sized(SHARDED[key])
     expected = drawn(case)
     for number in (1, 2, 3, case.n_replicates):
         parts = case.split(number)
@@ -103,10 +112,10 @@ def test_a_file_of_another_shard_is_refused(folder):
     first, second = case_of("kac").split(2)
     drawn(first)
     drawn(first, second.output())
-    with pytest.raises(store.StoreError, match="other shard"):
+    with pytest.raises(files.StoreError, match="other shard"):
         shards.merged([first, second])
     Path(second.output()).unlink()
-    with pytest.raises(store.StoreError, match="2of2"):
+    with pytest.raises(files.StoreError, match="2of2"):
         shards.merged([first, second])
 
 
@@ -139,7 +148,9 @@ def test_text_that_is_no_shard_is_refused(shard, capsys):
 
 
 def test_samplers_of_runs_are_not_sharded():
-    for sampler in UNSHARDED:
+    runs = {name for name, sampler in registry().items() if not sampler.by_replicate}
+    assert runs == {"kac_corners", "bkw_tree", "sphere_lattice"}
+    for sampler in runs:
         case = case_of(sampler)
         assert shards.make_shards([case], 1e-12) == {}
         assert dataclasses.replace(case, shard=(1, 2)).problems()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from kacsim import store
+from kacsim import files, store
 from kacsim.cases import make_case
 
 SETTINGS = {"n_particles": [3, 7], "time": 1.7, "engine": "forward", "items": {"a": {"b": 1}}}
@@ -71,8 +71,8 @@ def test_same_content_same_bytes(tmp_path):
 @pytest.mark.parametrize(
     ("error", "raised"),
     [
-        (OSError(28, "No space left on device"), store.StoreError),
-        (RuntimeError("NetCDF: HDF error"), (store.StoreError, RuntimeError)),
+        (OSError(28, "No space left on device"), files.StoreError),
+        (RuntimeError("NetCDF: HDF error"), (files.StoreError, RuntimeError)),
         (KeyboardInterrupt(), KeyboardInterrupt),
     ],
     ids=lambda value: type(value).__name__,
@@ -87,7 +87,7 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(error, raised, tmp
         raise error
 
     with pytest.raises(raised):
-        store.replace_file(path, half_way)
+        files.replace_file(path, half_way)
     assert path.read_bytes() == before
     assert os.listdir(tmp_path) == ["a.nc"]
 
@@ -124,7 +124,7 @@ def test_unwritable_places(place, tmp_path):
     (tmp_path / "a file").write_text("")
     (tmp_path / "a folder").mkdir()
     path = tmp_path / place
-    with pytest.raises(store.StoreError, match=f"{path}: cannot be written: "):
+    with pytest.raises(files.StoreError, match=f"{path}: cannot be written: "):
         written(path)
     assert sorted(os.listdir(tmp_path)) == ["a file", "a folder"]
     assert os.listdir(tmp_path / "a folder") == []
@@ -134,12 +134,12 @@ def test_unwritable_places(place, tmp_path):
 def test_unwritable_places_are_found_before_any_work(place, tmp_path):
     (tmp_path / "a file").write_text("")
     (tmp_path / "a folder").mkdir()
-    with pytest.raises(store.StoreError, match="cannot be written"):
-        store.check_writable(tmp_path / place)
+    with pytest.raises(files.StoreError, match="cannot be written"):
+        files.check_writable(tmp_path / place)
 
 
 def test_a_writable_place_stays_empty(tmp_path):
-    store.check_writable(tmp_path / "new" / "a.nc")
+    files.check_writable(tmp_path / "new" / "a.nc")
     assert os.listdir(tmp_path / "new") == []
 
 
@@ -172,7 +172,7 @@ def with_bad_settings(path):
 def test_unreadable_files_are_named_with_what_to_do(damage, tmp_path):
     path = tmp_path / "a.nc"
     damage(path)
-    with pytest.raises(store.StoreError, match=r"a\.nc: not a readable result file; remove it"):
+    with pytest.raises(files.StoreError, match=r"a\.nc: not a readable result file; remove it"):
         store.read(path)
 
 
@@ -187,14 +187,14 @@ def test_samples_of_other_settings_are_refused(tmp_path):
     assert store.read_sample(path, case).attrs["settings"] == json.loads(
         json.dumps(case.settings())
     )
-    with pytest.raises(store.StoreError, match=r"a\.nc: drawn with other seed, time; remove it"):
+    with pytest.raises(files.StoreError, match=r"a\.nc: drawn with other seed, time; remove it"):
         store.read_sample(path, sample_case(1.8, seed=2))
 
 
 def test_samples_of_other_code_are_refused(tmp_path):
     case, path = sample_case(), tmp_path / "a.nc"
     store.write(content(), path, title="t", settings=case.settings(), code="0123456789abcdef")
-    with pytest.raises(store.StoreError, match=r"a\.nc: drawn by other code; run snakemake"):
+    with pytest.raises(files.StoreError, match=r"a\.nc: drawn by other code; run snakemake"):
         store.read_sample(path, case)
 
 
@@ -202,7 +202,7 @@ def test_a_dataset_of_another_item_is_refused(tmp_path):
     dataset = xr.Dataset({"x": 1.0}, attrs={"item": "kac_fig4"})
     path = written(tmp_path / "a.nc", dataset)
     assert store.read_dataset(path, "kac_fig4")["x"] == 1.0
-    with pytest.raises(store.StoreError, match=r"a\.nc: holds kac_fig4, not kac_fig5"):
+    with pytest.raises(files.StoreError, match=r"a\.nc: holds kac_fig4, not kac_fig5"):
         store.read_dataset(path, "kac_fig5")
 
 
@@ -213,7 +213,7 @@ def test_a_changed_value_is_noticed(name, tmp_path):
         flat = np.atleast_1d(file[name][...])
         flat.flat[0] += 1
         file[name][...] = flat.reshape(file[name].shape)
-    with pytest.raises(store.StoreError, match="not a readable result file"):
+    with pytest.raises(files.StoreError, match="not a readable result file"):
         store.read(path)
 
 
@@ -221,7 +221,7 @@ def test_a_changed_attribute_is_noticed(tmp_path):
     path = written(tmp_path / "a.nc")
     with netCDF4.Dataset(path, "a") as file:
         file.title = "Another test"
-    with pytest.raises(store.StoreError, match="not a readable result file"):
+    with pytest.raises(files.StoreError, match="not a readable result file"):
         store.read(path)
 
 
@@ -237,21 +237,21 @@ def test_no_flipped_byte_changes_what_is_read(tmp_path):
         other.write_bytes(broken)
         try:
             assert store.read(other).identical(good)
-        except store.StoreError:
+        except files.StoreError:
             refused += 1
         other.unlink()
     assert refused > 50
 
 
 def test_sums_name_the_file_that_has_changed(tmp_path):
-    files = [tmp_path / "a.png", tmp_path / "a.pdf"]
-    for file in files:
+    figures = [tmp_path / "a.png", tmp_path / "a.pdf"]
+    for file in figures:
         file.write_bytes(b"content")
-    store.write_sums(files, tmp_path / "a.sha256")
-    store.check_sums(tmp_path / "a.sha256")
-    files[0].write_bytes(b"Content")
-    with pytest.raises(store.StoreError, match=r"a\.png: has changed; remove it"):
-        store.check_sums(tmp_path / "a.sha256")
-    files[0].unlink()
-    with pytest.raises(store.StoreError, match=r"a\.sha256: cannot be read"):
-        store.check_sums(tmp_path / "a.sha256")
+    files.write_sums(figures, tmp_path / "a.sha256")
+    files.check_sums(tmp_path / "a.sha256")
+    figures[0].write_bytes(b"Content")
+    with pytest.raises(files.StoreError, match=r"a\.png: has changed; remove it"):
+        files.check_sums(tmp_path / "a.sha256")
+    figures[0].unlink()
+    with pytest.raises(files.StoreError, match=r"a\.sha256: cannot be read"):
+        files.check_sums(tmp_path / "a.sha256")

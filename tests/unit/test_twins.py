@@ -6,9 +6,10 @@ import math
 import numpy as np
 import pytest
 import twins
+from law.algorithms import own_parameters
 
-from kacsim import checks
 from kacsim.kac import draws, perfect
+from kacsim.kac.samplers import ALGORITHMS, ENGINES, KAC
 from kacsim.streams import new_stream
 
 TWINS = {
@@ -39,16 +40,15 @@ SHAPES = [
 
 def parameters_of(algorithm, engine, shape):
     n, time, steps, _ = shape
-    step = time / steps if algorithm in checks.STEPPED else None
     parameters = {
         "algorithm": algorithm,
         "engine": engine,
         "n_particles": n,
         "time": time,
-        "time_step": step,
         "collision_rate": 0.9,
+        **own_parameters(algorithm, time, steps),
     }
-    assert list(checks.kac(**parameters)) == []
+    assert KAC.problems(KAC.complete(parameters)) == []
     return parameters
 
 
@@ -85,7 +85,7 @@ def test_infinitely_many_particles(seed):
     assert_same_draws(kernel, twins.poisson_ancestral, (0, 1.53, 0.0), 200, (seed, "twin tree"))
 
 
-INFINITE = {"n_particles": math.inf, "time": 1.7, "time_step": None, "collision_rate": 0.9}
+INFINITE = {"n_particles": math.inf, "time": 1.7, "collision_rate": 0.9}
 
 
 def test_arguments_of_infinitely_many_particles():
@@ -93,7 +93,8 @@ def test_arguments_of_infinitely_many_particles():
     assert arguments == (0, pytest.approx(1.53), 0.0)
 
 
-@pytest.mark.parametrize(("algorithm", "engine"), TWINS)
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_draws_do_not_depend_on_the_batch(algorithm, engine, seed):
     """One call for ten draws and ten calls give the same values, workspaces of any size included.
 

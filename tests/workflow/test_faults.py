@@ -7,7 +7,7 @@ import faults
 import pytest
 from runs import Run, same
 
-ITEMS = ("kac_fig6", "boltzmann_fig7")
+ITEMS = ("boltzmann_fig7", "techniques_fig1")
 
 
 @pytest.fixture(scope="session")

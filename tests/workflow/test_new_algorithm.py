@@ -45,14 +45,14 @@ def kacsim(project, *words):
 def test_its_parameter_is_in_the_help(project):
     status, said = kacsim(project, "sample", "kac", "--help")
     assert status == 0
-    assert re.search(r"--laziness LAZINESS\s+chance that a picked pair does not collide", said)
+    assert re.search(r"--laziness LAZINESS\s+pairs passed over for one that collides", said)
 
 
 def test_its_parameter_is_checked_and_belongs_to_it_alone(project):
-    flags = FLAGS.replace("0.3", "1.5").split()
+    flags = FLAGS.replace("0.3", "-1.5").split()
     status, said = kacsim(project, "sample", "kac", *flags, "--output", "x.nc")
     assert status == 2
-    assert said.startswith("--laziness = 1.5: must be")
+    assert said.startswith("--laziness = -1.5: must be")
     flags = FLAGS.replace("lazy_bird", "bird").split()
     status, said = kacsim(project, "sample", "kac", *flags, "--output", "x.nc")
     assert status == 2

@@ -23,7 +23,7 @@ from kacsim.kernels.jit import kernel
 from kacsim.kernels.provenance import versions
 from kacsim.streams import new_stream
 
-TIME = 2.0
+SPAN = 2.0  # from the start to what is drawn
 
 
 @kernel
@@ -88,13 +88,8 @@ def _draws(kernel_function, arguments):
     return call
 
 
-def _parameters(n_particles, algorithm="bird"):
-    return {
-        "algorithm": algorithm,
-        "n_particles": n_particles,
-        "time": TIME,
-        "collision_rate": RATE,
-    }
+def _parameters(n_particles):
+    return {"n_particles": n_particles, "time": SPAN, "collision_rate": RATE}
 
 
 def _bird(repeats):
@@ -120,7 +115,7 @@ def _ancestral(repeats):
     for name, module in (("bird", bird), ("poisson", poisson)):
         cost = {}
         for n_particles in (50, 1000, 10**9):
-            arguments = module.arguments(**_parameters(n_particles, name))
+            arguments = module.arguments(**_parameters(n_particles))
             cost[n_particles] = seconds_per_draw(
                 _draws(module.ancestral, arguments), n_draws, repeats
             )
@@ -188,9 +183,9 @@ def _bkw_tree(repeats):
     """Algorithm 2 against its plain recursion with vectors and printed weights."""
     stream, budget = new_stream(1, "benchmark"), 10**7
     fast, nodes = _nodes(
-        lambda v, n: bkw_tree.estimate(v, n, 2.0, TIME, 1.0, 0.0, budget, stream), 50_000, repeats
+        lambda v, n: bkw_tree.estimate(v, n, 2.0, SPAN, 1.0, 0.0, budget, stream), 50_000, repeats
     )
-    slow, _ = _nodes(lambda v, n: literal.estimate(v, n, 2.0, TIME, False, stream), 20_000, repeats)
+    slow, _ = _nodes(lambda v, n: literal.estimate(v, n, 2.0, SPAN, False, stream), 20_000, repeats)
     print(
         f"BKW tree, {nodes:.1f} nodes: {fast * 1e9:.1f} ns per node (goal 45), plain recursion "
         f"{slow * 1e9:.1f}: ratio {slow / fast:.1f}"
@@ -222,7 +217,7 @@ def _memory():
     """Peak memory after a sampler job of many draws."""
     from kacsim.jobs import sampling
 
-    common = {"algorithm": "bird", "engine": "ancestral", "n_particles": 50, "time": TIME}
+    common = {"algorithm": "bird", "engine": "ancestral", "n_particles": 50, "time": SPAN}
     case = make_case("kac", n_draws=5_000_000, n_replicates=1, seed=1, **common)
     sampling.run(case)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

@@ -31,7 +31,7 @@ def edited(finished, tmp_path_factory):
         shutil.copy2(path, kept)
         path.write_text(text.replace(old, new), encoding="utf-8")
         try:
-            answer = project.snakemake("--dry-run", *SMOKE)
+            answer = project.snakemake("--dry-run", "--printshellcmds", *SMOKE)
         finally:
             shutil.copy2(kept, path)
         assert answer.returncode == 0, answer.stdout + answer.stderr
@@ -43,11 +43,10 @@ def edited(finished, tmp_path_factory):
 def planned(output):
     """Return stage -> names of the files' stems that a dry run would make."""
     found = {"sample": set(), "reduce": set(), "draw": set(), "report": set()}
-    for line in re.findall(r"^    output: (.*)$", output, re.M):
-        for name in line.split(", "):
-            path = Path(name)
-            stage = FAMILY.get(path.parent.name, "report")
-            found[stage].add(path.name if stage == "report" else path.name.rpartition(".")[0])
+    for name in re.findall(r"(results/\w+/\S+)", "\n".join(re.findall(r"--output (.*)", output))):
+        path = Path(name)
+        stage = FAMILY.get(path.parent.name, "report")
+        found[stage].add(path.name if stage == "report" else path.name.rpartition(".")[0])
     return found
 
 

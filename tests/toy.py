@@ -10,6 +10,7 @@ from kacsim.kernels import names, sources, tables
 NAME = "toy"
 CACHED = (names.table, names.modules, names.imported)
 CACHED += (sources._used, sources._changed, sources.closure, sources._code)
+CACHED += (sources._effects, sources._digest)
 
 
 class Toy:

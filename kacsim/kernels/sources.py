@@ -31,6 +31,7 @@ FINDERS = ("__import__", "compile", "eval", "exec", "globals", "vars")
 LIBRARIES = ("builtins", "gc", "importlib", "inspect", "lazy_loader", "pickle", "pkgutil", "runpy")
 LIBRARIES += ("sys._getframe", "sys.modules")
 HARMLESS = ("importlib.metadata", "lazy_loader.attach")
+RENAMED = {"yaml": "PyYAML"}  # to look such names up takes a tenth of a second
 PLAIN = (str, bytes, bool, int, float, complex, type(None))
 
 
@@ -147,15 +148,20 @@ def _with(module, name):
     known = names.table(module)
     if known is None or (name is not None and not names.binds(module, name)):
         raise UnknownError(f"{module}: binds no {name}")
-    for one in names.imported(module):
-        if not names.table(one)["outside"]:
-            yield from ((one, effect) for effect in names.table(one)["effects"])
+    yield from _effects(module)
     if name is not None:
         yield from names.resolve(module, [name])
         return
     for other in {*known["definitions"], *known["aliases"]}:
         yield from names.resolve(module, [other])
     yield from ((one, None) for one in names.modules() if one.rpartition(".")[0] == module)
+
+
+@functools.cache
+def _effects(module):
+    """Return the statements that do more than to bind names when a module is imported."""
+    inside = (one for one in names.imported(module) if not names.table(one)["outside"])
+    return [(one, effect) for one in inside for effect in names.table(one)["effects"]]
 
 
 def code(roots):
@@ -184,6 +190,7 @@ def _distributions(library):
     """Return the installed distributions that hold a library, none if it is Python's own."""
     if library in sys.stdlib_module_names:
         return ()
+    library = RENAMED.get(library, library)
     if version(library) == "none":  # it has another name than its distribution, or is not there
         found = importlib.metadata.packages_distributions().get(library)
         if not found and importlib.util.find_spec(library):
@@ -192,6 +199,7 @@ def _distributions(library):
     return (library, "llvmlite") if library == "numba" else (library,)
 
 
+@functools.cache
 def _digest(module, name):
     """Return the digest of a definition, or the value of a constant that lies outside."""
     entry = names.table(module)["definitions"][name]

@@ -68,6 +68,7 @@ def test_a_library_counts_by_the_version_of_its_distribution():
     assert sources._distributions("math") == ()
     assert sources._distributions("numba") == ("numba", "llvmlite")
     assert sources._distributions("yaml") == ("PyYAML",)
+    assert sources._distributions("mpl_toolkits") == ("matplotlib",)
     assert sources._distributions("not_there") == ("not_there",)
 
 

@@ -17,8 +17,11 @@ def kernel_of(parameters):
     what describes the ensemble, and the algorithm's own parameters.
     """
     own = {key: value for key, value in parameters.items() if key not in NOT_OF_THE_ENSEMBLE}
-    arguments = named("kacsim.kac", parameters["algorithm"], "arguments")
-    kernel = named("kacsim.kac", parameters["algorithm"], parameters["engine"])
+    # By names that are no literals: a literal would make every case depend on all algorithms'.
+    arguments, kernel = (
+        named("kacsim.kac", parameters["algorithm"], part)
+        for part in ("arguments", parameters["engine"])
+    )
     return kernel, arguments(**own)
 
 

@@ -41,7 +41,9 @@ def fourth_moment(
         Names the argument, its value and what is allowed.
     """
     own = samplers.own_parameters(algorithm, parameters)
-    checks.raise_problems(samplers.moment(algorithm, time, n_particles, collision_rate, **own))
+    checks.raise_problems(
+        samplers.moment_problems(algorithm, time, n_particles, collision_rate, **own)
+    )
     if time == 0:
         return INITIAL_SQUARE
     if n_particles == math.inf:

@@ -95,7 +95,7 @@ def kac(*, algorithm, engine, n_particles, time, collision_rate, **_):
         )
 
 
-def moment(algorithm, time, n_particles, collision_rate, **own):
+def moment_problems(algorithm, time, n_particles, collision_rate, **own):
     """Yield the problems of an exact fourth moment; `own` are the algorithm's own parameters."""
     found = [
         *one_of("algorithm", algorithm, ALGORITHMS),

@@ -5,6 +5,7 @@ import math
 import pytest
 from scipy import stats
 
+from kacsim.items import _claims
 from kacsim.statistics import verdict
 from kacsim.statistics.verdict import CORRECTED, NOT_REPRODUCED, REPRODUCED, UNDECIDED, Finding
 
@@ -122,3 +123,13 @@ def test_family_error_is_shared_by_holm():
     assert family[0]["verdict"] == REPRODUCED
     assert family[0]["adjusted_p_value"] == pytest.approx(0.04, rel=1e-6)
     assert verdict.FAMILY_ERROR == 0.01
+
+
+def test_a_table_refuses_findings_of_items_that_it_does_not_name():
+    """The published entries are dependencies of the items named; another's would go unseen."""
+    finding = Finding("kac_9_limit", 1.0, 0.0)
+    with pytest.raises(ValueError, match=r"\A[^\n]+\Z") as error:
+        _claims.table(("kac_fig9", "kac_fig4"), [finding])
+    assert str(error.value) == (
+        "claim = 'kac_9_limit': reports/published.yaml has no such entry of kac_fig9 or kac_fig4"
+    )

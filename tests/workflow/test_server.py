@@ -1,6 +1,7 @@
 """Jobs forked from one warmed process: what they see, how they end, and that they leave nothing."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -80,7 +81,9 @@ def test_a_job_is_what_a_process_of_its_own_is(served, tmp_path):
     words = [*LONG[:-7], "5", "--n-replicates", "2", "--seed", "7", "--output", "small.nc"]
     for folder, where in ((tmp_path / "with", address), (tmp_path / "without", "/absent")):
         folder.mkdir()
-        assert finish(words, where, folder) == (0, *finish(words, where, folder)[1:])
+        status, out, err = finish(words, where, folder)
+        assert (status, err) == (0, "")
+        assert re.fullmatch(r"drew 10 values of kac-bird-ancestral-n50-t2-2x5 in [\d.]+ s\n", out)
         status, out, err = finish(["reduce", "nothing", "--settings", "{}", "--output", "x"],
                                   where, folder)  # fmt: skip
         assert (status, out) == (2, "")

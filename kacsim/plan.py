@@ -18,7 +18,10 @@ from kacsim.jobs.shards import make_shards
 from kacsim.kernels.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
-REPORT_FILES = ("report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml")
+REPORT_FILES = (
+    *("report.html.j2", "style.css", "captions.yaml", "errata.yaml"),
+    *(f"published/{path.name}" for path in items.PUBLISHED),
+)
 # Thresholds of tails, and the width of the bins that samples are counted in.
 EDGES = {"tail_above", "tail_threshold", "claim_threshold"}
 FINEST = 0.05

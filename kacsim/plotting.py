@@ -44,6 +44,13 @@ def panels(rows, columns, *, share_y=False, height=None, width=None, projection=
     return figure, list(axes.flat)
 
 
+def stack(heights, *, width):
+    """Return (figure, list of axes), one below the other with heights in inches."""
+    matplotlib.rcParams.update(STYLE)
+    figure = Figure(figsize=(width, sum(heights) + 0.6), layout="constrained")
+    return figure, list(figure.subplots(len(heights), squeeze=False, height_ratios=heights).flat)
+
+
 def points(axis, x, y, errors, k, label, *, line=True):
     """Draw points with error bars of one standard error in the k-th colour and symbol."""
     axis.errorbar(

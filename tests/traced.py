@@ -105,7 +105,7 @@ def item(trace, name, results):
 
 
 class Entry(dict):
-    """An entry of reports/published.yaml that notes when more than its item is read."""
+    """An entry of reports/published/ that notes when more than its item is read."""
 
     def __init__(self, trace, key, content):
         super().__init__(content)

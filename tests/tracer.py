@@ -211,7 +211,7 @@ class Trace:
         return {f"{home}.{name}" for what, home, name in self.events[phase] if what == CALLED}
 
     def published(self, phase):
-        """Return the claims whose entries in reports/published.yaml are read."""
+        """Return the claims whose entries in reports/published/ are read."""
         return {key for what, key, _ in self.events[phase] if what == "published"}
 
     def opened(self, phase):

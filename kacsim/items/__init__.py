@@ -28,6 +28,9 @@ NAMES = sorted(
 )
 
 
+PUBLISHED = sorted((ROOT / "reports" / "published").glob("*.yaml"))
+
+
 def load(name):
     """Return the module of an item."""
     return importlib.import_module(f"kacsim.items.{name}")
@@ -40,8 +43,11 @@ def uses(name):
 
 @functools.cache
 def published():
-    """Return claim id -> published entry, from reports/published.yaml."""
-    return files.read_yaml(ROOT / "reports" / "published.yaml")
+    """Return claim id -> published entry, from the files of reports/published/, one a text."""
+    found = {}
+    for path in PUBLISHED:
+        found |= files.read_yaml(path)
+    return found
 
 
 def published_of(names):
@@ -65,8 +71,9 @@ def reduced(name, samples, settings):
 
     Returns
     -------
-    xarray.Dataset with attributes ``settings`` and ``published`` (claim id -> value)
+    xarray.Dataset with attributes ``settings`` and ``published`` (claim id -> printed number)
     """
     dataset = load(name).reduce(samples, settings)
-    values = {key: entry["value"] for key, entry in published_of((name,)).items()}
+    entries = published_of((name,)).items()
+    values = {key: float(entry["printed"]) for key, entry in entries if "printed" in entry}
     return dataset.assign_attrs(settings=settings, published=values)

@@ -1,21 +1,27 @@
-"""What the tables of numbers and claims share: gathering, judging and drawing findings."""
+"""What the tables of claims share: gathering findings, judging them, drawing every row."""
 
 import textwrap
 
 from kacsim import items
 from kacsim.items._lazy import np, plotting, store, verdict, xr
 
-TEXT_COLUMNS = ("claim", "text", "kind", "verdict", "evidence")
-NUMBER_COLUMNS = {
-    "reference": "published or printed value",
+ROW_TEXTS = ("claim", "text", "kind", "rule", "verdict", "evidence")
+PART_TEXTS = {"of": "claim", "label": "component", "law": "law of the interval", "part_verdict": ""}
+NUMBERS = {
     "measured": "measured value",
     "standard_error": "standard error of the measured value",
-    "published_error": "standard error of the published value",
-    "corrected": "corrected value",
-    "z": "(measured - reference) / error",
-    "p_value": "p-value",
-    "adjusted_p_value": "p-value adjusted by Holm",
+    "low": "lower end of the interval",
+    "high": "upper end of the interval",
+    "allowed_low": "lower end of the set that the text allows",
+    "allowed_high": "upper end of the set that the text allows",
+    "right_low": "lower end of the right formula's set",
+    "right_high": "upper end of the right formula's set",
+    "seen": "smallest departure from the set that this run sees in 95 of 100",
+    "pull": "(measured - value that stands) / standard error",
+    "near": "1 if within a tenth of the set's width of its edge",
 }
+BANDS = ("two-sided", "one-sided", "exact")
+REACH = 4.0  # of a two-sided band, in half widths of the set; twice as far in the one-sided band
 
 
 def cases(uses, settings):
@@ -38,7 +44,10 @@ def reduce(name, uses, samples, settings):
 
 
 def table(names, found):
-    """Return one row per finding with its statistic and verdict, judged as one family.
+    """Return one row per finding with its verdict, and one part per component of each row.
+
+    The chance of an error is shared by all intervals of the text. Entries that cannot be tested
+    get a row without a finding.
 
     Parameters
     ----------
@@ -48,54 +57,159 @@ def table(names, found):
     Raises
     ------
     ValueError
-        Names a finding whose published entry is another item's: its edits would go unseen here.
+        Names a finding whose published entry is another item's (its edits would go unseen here),
+        or an entry of these items that nothing was found on.
     """
     published = items.published_of(names)
-    for finding in found:
-        if finding.claim not in published:
+    found = [*found, *_untestable(published)]
+    known = [one.claim for one in found]
+    for claim in known:
+        if claim not in published:
             raise ValueError(
-                f"claim = {finding.claim!r}: reports/published.yaml has no such entry "
-                f"of {' or '.join(names)}"
+                f"claim = {claim!r}: reports/published has no such entry of {' or '.join(names)}"
             )
-    rows = verdict.judge(found, published)
-    columns = {key: [] for key in (*TEXT_COLUMNS, *NUMBER_COLUMNS)}
-    own = ("claim", "evidence", "measured", "standard_error", "published_error", "corrected")
-    for finding, row in zip(found, rows, strict=True):
-        for key in own:
-            columns[key].append(getattr(finding, key))
-        for key in ("kind", "verdict", "z", "p_value", "adjusted_p_value"):
-            columns[key].append(row[key])
-        columns["text"].append(published[finding.claim]["text"])
-        columns["reference"].append(verdict.reference(finding, published[finding.claim]))
-    described, dims = store.described, ("row",)
+    own_entries = (key for key, entry in published.items() if entry["item"] in names)
+    for claim in own_entries:
+        if claim not in known:
+            raise ValueError(f"claim = {claim!r}: {published[claim]['item']} finds nothing on it")
+    many = verdict.n_intervals(found)
+    rows, parts = [], []
+    for one in found:
+        entry = published[one.claim]
+        word, judged = verdict.judge(one, entry, verdict.FAMILY_ERROR / max(1, many))
+        own = {key: entry[key] for key in ("text", "kind", "rule")}
+        rows.append(own | {"claim": one.claim, "verdict": word, "evidence": one.evidence})
+        parts += [_part(one, *pair) for pair in zip(one.parts, judged, strict=bool(judged))]
+    described = store.described
     variables = {
-        key: described(np.array(columns[key], dtype=float), dims, text)
-        for key, text in NUMBER_COLUMNS.items()
+        key: described(np.array([row[key] for row in rows], dtype=object), ("row",), key)
+        for key in ROW_TEXTS
     }
-    variables |= {
-        key: described(np.array(columns[key], dtype=object), dims, key) for key in TEXT_COLUMNS
+    for key, text in PART_TEXTS.items():
+        values = np.array([part[key] for part in parts], dtype=object)
+        variables[key] = described(values, ("part",), text or key.replace("_", " "))
+    for key, text in NUMBERS.items():
+        variables[key] = described(np.array([p[key] for p in parts], float), ("part",), text)
+    attributes = {"family_error": verdict.FAMILY_ERROR, "n_intervals": many}
+    return xr.Dataset(variables, attrs=attributes)
+
+
+def _untestable(published):
+    """Return a finding without parts for every entry that cannot be tested."""
+    return [
+        verdict.Finding(key, ())
+        for key, entry in published.items()
+        if entry["rule"] == "untestable"
+    ]
+
+
+def _part(found, part, judged):
+    """Return what the table shows of one component."""
+    right = judged["correction"] or (np.nan, np.nan)
+    return {
+        "of": found.claim,
+        "label": part.label,
+        "law": part.measured.law,
+        "part_verdict": judged["verdict"],
+        "measured": part.measured.value,
+        "standard_error": part.measured.standard_error,
+        "low": judged["low"],
+        "high": judged["high"],
+        "allowed_low": judged["allowed"][0],
+        "allowed_high": judged["allowed"][1],
+        "right_low": right[0],
+        "right_high": right[1],
+        "seen": judged["seen"],
+        "pull": judged["pull"],
+        "near": judged["near"],
     }
-    return xr.Dataset(variables, attrs={"family_error": verdict.FAMILY_ERROR})
+
+
+# The figure: every row in units of what its text allows
 
 
 def draw(dataset):
-    """Draw the statistic of every claim, symbols by verdict."""
-    figure, (axis,) = plotting.panels(1, 1, width=8.0, height=0.22 * dataset.sizes["row"] + 1)
-    limit = 30.0
-    row = np.arange(dataset.sizes["row"])
-    z = np.clip(np.nan_to_num(dataset.z.values, posinf=limit, neginf=-limit), -limit, limit)
-    for k, name in enumerate(
-        (verdict.REPRODUCED, verdict.CORRECTED, verdict.NOT_REPRODUCED, verdict.UNDECIDED)
-    ):
-        here = dataset.verdict.values == name
-        colour, marker = plotting.COLOURS[(2, 0, 1, 3)[k]], plotting.MARKERS[k]
-        axis.plot(z[here], row[here], marker, color=colour, ls="", label=name)
-    axis.axvline(0, color="0.7", lw=0.8, zorder=0)
-    axis.grid(axis="y", color="0.92", zorder=0)
-    axis.set_yticks(row, [textwrap.shorten(str(text), 62) for text in dataset.text.values])
-    axis.tick_params(axis="y", labelsize=7)
-    axis.invert_yaxis()
-    axis.set_xlim(-limit - 1, limit + 1)
-    axis.set_xlabel(f"z = (measured $-$ published) / error, cut at $\\pm${limit:g}")
-    figure.legend(loc="outside upper center", ncols=4, frameon=False)
+    """Draw the interval of every row in units of its set, a band per kind of set, and the pulls."""
+    bands = _bands(dataset)
+    heights = [0.5 + 0.34 * len(rows) for rows in bands.values()]
+    figure, axes = plotting.stack([*heights, 2.6], width=9.0)
+    for axis, (band, rows) in zip(axes, bands.items(), strict=False):
+        _band(axis, dataset, band, rows)
+    _pulls(axes[-1], dataset)
+    words = [word for word in verdict.VERDICTS if word in dataset.verdict.values]
+    handles = [_mark(axes[0], [], [], word, label=word) for word in words]
+    figure.legend(handles=handles, loc="outside upper center", ncols=5, frameon=False)
     return figure
+
+
+def _bands(dataset):
+    """Return band -> places of its rows; rows without a component are in none."""
+    found = {band: [] for band in BANDS}
+    for k, (claim, rule) in enumerate(zip(dataset.claim.values, dataset.rule.values, strict=True)):
+        laws = dataset.law.values[dataset.of.values == claim]
+        if laws.size:
+            exact = (laws == "exact").all()
+            found[BANDS[2] if exact else BANDS[rule == "direction"]].append(k)
+    return {band: rows for band, rows in found.items() if rows}
+
+
+def in_units(part):
+    """Return (measured, low, high) of a component in units of its set.
+
+    Half the width of the set from its middle, so that the set is from -1 to 1; for a set without
+    an upper end multiples of its lower one, so that it starts at 1.
+    """
+    values = np.array([float(part[key]) for key in ("measured", "low", "high")])
+    low, high = float(part.allowed_low), float(part.allowed_high)
+    if np.isinf(high):
+        return values / low
+    return (values - (low + high) / 2.0) / ((high - low) / 2.0)
+
+
+def _band(axis, dataset, band, rows):
+    one_sided = band == BANDS[1]
+    ends = (-REACH, 2.0 * REACH) if one_sided else (-REACH, REACH)
+    axis.axvspan(*((1.0, ends[1]) if one_sided else (-1.0, 1.0)), color="0.93", lw=0, zorder=0)
+    for place, k in enumerate(rows):
+        parts = np.flatnonzero(dataset.of.values == dataset.claim.values[k])
+        shifts = np.linspace(-0.3, 0.3, parts.size) if parts.size > 1 else [0.0]
+        for shift, p in zip(shifts, parts, strict=True):
+            part = dataset.isel(part=p)
+            value, low, high = np.clip(in_units(part), *ends)
+            word = str(part.part_verdict.values)
+            axis.plot([low, high], [place + shift] * 2, color=_style(word)[0], lw=1.2)
+            _mark(axis, [value], [place + shift], word)
+    texts = [textwrap.fill(str(dataset.text.values[k]), 74) for k in rows]
+    axis.set_yticks(range(len(rows)), texts)
+    axis.tick_params(axis="y", labelsize=6.5)
+    axis.grid(axis="y", color="0.92", zorder=0)
+    axis.set_ylim(len(rows) - 0.4, -0.6)
+    axis.set_xlim(*(1.03 * end for end in ends))
+    unit = "its lower end" if one_sided else "half its width, from its middle"
+    sort = {BANDS[0]: "intervals", BANDS[1]: "intervals, one-sided sets", BANDS[2]: "exact values"}
+    axis.set_xlabel(f"{sort[band]}, in units of the set that the text allows ({unit})", fontsize=8)
+
+
+def _style(word):
+    k = verdict.VERDICTS.index(word)
+    return plotting.COLOURS[(2, 0, 1, 3, 4)[k]], plotting.MARKERS[k]
+
+
+def _mark(axis, x, y, word, label=None):
+    colour, marker = _style(word)
+    (handle,) = axis.plot(x, y, marker, color=colour, ls="", ms=4, label=label)
+    return handle
+
+
+def _pulls(axis, dataset):
+    """Draw the histogram of all pulls with the normal law that they should have."""
+    pulls = dataset.pull.values[np.isfinite(dataset.pull.values)]
+    edges = np.linspace(-5.0, 5.0, 21)
+    axis.hist(np.clip(pulls, *edges[[0, -1]]), edges, color=plotting.COLOURS[0], alpha=0.6)
+    grid = np.linspace(-5.0, 5.0, 200)
+    bell = np.exp(-(grid**2) / 2.0) / np.sqrt(2.0 * np.pi)
+    axis.plot(grid, pulls.size * np.diff(edges)[0] * bell, color="black", lw=1)
+    axis.set_xlabel(
+        f"pull of {pulls.size} components whose value is known: (measured $-$ value) / error"
+    )
+    axis.set_ylabel("components")

@@ -123,3 +123,10 @@ def mean_of(dataset, variable, **place):
     """Return an estimate from a reduced dataset: `variable` and `variable`_error at a place."""
     here = dataset.sel(**place)
     return estimate.Mean(float(here[variable]), float(here[variable + "_error"]))
+
+
+def tvn_of(dataset, **place):
+    """Return the mean TVN at a place and the published bin width; its replicates give its error."""
+    here = dataset.isel(bin_width=0).sel(**place)
+    degrees = dataset.attrs["settings"]["n_replicates"] - 1
+    return estimate.Mean(float(here.tvn), float(here.tvn_error), degrees)

@@ -1,7 +1,7 @@
 """Fig. 1 of the Kac paper: histograms of v_1 under Nanbu's algorithm, small and large step."""
 
 from kacsim.items import _kac
-from kacsim.items._lazy import estimate, plotting, store, verdict
+from kacsim.items._lazy import plotting, store, verdict
 from kacsim.kac.samplers import TITLES
 
 
@@ -36,38 +36,25 @@ def reduce(samples, settings):
 
 
 def claims(dataset):
-    """Compare the two published TVN values with their law: one TVN of the same size."""
+    """Compare the two published TVN values with the mean TVN of each reading."""
+    sequential, synchronous = _kac.READINGS
     small, large = (float(step) for step in dataset.time_step)
+    rows = {
+        "kac_fig1_small_step": (sequential, synchronous, small),
+        "kac_fig1_large_step": (sequential, synchronous, large),
+        "kac_41_reading": (synchronous, sequential, large),
+    }
     found = []
-    for claim, step in (("kac_fig1_small_step", small), ("kac_fig1_large_step", large)):
-        mean, spread = _tvn(dataset, _kac.READINGS[0], step)
-        other, _ = _tvn(dataset, _kac.READINGS[1], step)
-        found.append(
-            verdict.Finding(
-                claim,
-                mean.value,
-                mean.standard_error,
-                published_error=spread,
-                evidence=f"Synchronous reading: {other.value:.4f} ± {other.standard_error:.4f}.",
-            )
+    for claim, (reading, other, step) in rows.items():
+        mean = _kac.tvn_of(dataset, reading=reading, time_step=step)
+        beside = _kac.tvn_of(dataset, reading=other, time_step=step)
+        spread = float(dataset.isel(bin_width=0).sel(reading=reading, time_step=step).tvn_spread)
+        evidence = (
+            f"{TITLES[reading]}; one TVN varies by {spread:.4f}. "
+            f"{TITLES[other]}: {beside.value:.4f} ± {beside.standard_error:.4f}."
         )
-    sequential, spread = _tvn(dataset, _kac.READINGS[0], large)
-    synchronous, _ = _tvn(dataset, _kac.READINGS[1], large)
-    reading = verdict.Finding(
-        "kac_41_reading",
-        dataset.attrs["published"]["kac_fig1_large_step"],
-        spread,
-        printed=synchronous.value,
-        corrected=sequential.value,
-        evidence="The published value tested against both readings, as one TVN drawn from each.",
-    )
-    return [*found, reading]
-
-
-def _tvn(dataset, reading, step):
-    here = dataset.isel(bin_width=0).sel(reading=reading, time_step=step)
-    mean = estimate.Mean(float(here.tvn), float(here.tvn_error))
-    return mean, float(here.tvn_spread)
+        found.append(verdict.finding(claim, mean, evidence))
+    return found
 
 
 def draw(dataset):
@@ -76,7 +63,7 @@ def draw(dataset):
     for axis, step in zip(axes, dataset.time_step.values, strict=True):
         here = dataset.sel(time_step=step)
         for r, reading in enumerate(_kac.READINGS):
-            mean, _ = _tvn(dataset, reading, step)
+            mean = _kac.tvn_of(dataset, reading=reading, time_step=step)
             label = f"{TITLES[reading]}\nTVN {plotting.with_error(mean)}"
             density = here.density.sel(reading=reading)
             plotting.bars(axis, here.edge, density, r, label, fill=r == 0)

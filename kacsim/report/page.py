@@ -1,6 +1,6 @@
 """The report: datasets, figures and texts become one self-contained HTML page.
 
-Every number on the page comes from a dataset, from reports/published.yaml or from a formula; words
+Every number on the page comes from a dataset, from reports/published/ or from a formula; words
 come from the template, from captions.yaml (one entry per item) and from errata.yaml (one entry per
 text). No time, no random id and no network address: the same inputs give the same bytes.
 """

@@ -1,17 +1,28 @@
-"""Means and their standard errors."""
+"""What was measured: a mean, a share or an exact value, each with its interval."""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import special
+
+from kacsim.statistics.tail import clopper_pearson
 
 
 @dataclass(frozen=True)
 class Mean:
-    """An estimate with its standard error."""
+    """An estimate with its standard error.
+
+    Attributes
+    ----------
+    value, standard_error : float
+    degrees : degrees of freedom behind the standard error; inf where draws are so many that the
+        error counts as known
+    """
 
     value: float
     standard_error: float
+    degrees: float = math.inf
 
     def z(self, exact=0.0):
         """Return (value - exact) / standard_error; 0 when both differences vanish."""
@@ -19,9 +30,86 @@ class Mean:
         return 0.0 if gap == 0.0 else gap / self.standard_error
 
     def minus(self, other):
-        """Return the difference to an independent estimate."""
+        """Return the difference to an independent estimate (degrees by Welch and Satterthwaite)."""
         error = math.hypot(self.standard_error, other.standard_error)
-        return Mean(self.value - other.value, error)
+        parts = [(one.standard_error**2, one.degrees) for one in (self, other)]
+        spread = sum(square**2 / degrees for square, degrees in parts)
+        degrees = error**4 / spread if spread > 0.0 else math.inf
+        return Mean(self.value - other.value, error, degrees)
+
+    def over(self, unit):
+        """Return the estimate in units of a known positive value."""
+        return Mean(self.value / unit, self.standard_error / unit, self.degrees)
+
+    def interval(self, alpha):
+        """Return (low, high) that misses the mean with probability `alpha` (Student's t)."""
+        reach = self.reach(alpha)
+        return self.value - reach, self.value + reach
+
+    def reach(self, alpha):
+        """Return half the width of the interval."""
+        if math.isinf(self.degrees):
+            return -float(special.ndtri(alpha / 2.0)) * self.standard_error
+        return -float(special.stdtrit(self.degrees, alpha / 2.0)) * self.standard_error
+
+    @property
+    def law(self):
+        """Name the law of the interval."""
+        return "normal" if math.isinf(self.degrees) else f"t with {self.degrees:.0f} degrees"
+
+
+@dataclass(frozen=True)
+class Share:
+    """A share of independent trials."""
+
+    successes: int
+    n: int
+
+    @property
+    def value(self):
+        """Return the share."""
+        return self.successes / self.n
+
+    @property
+    def standard_error(self):
+        """Return the binomial standard error, never zero (Agresti-Coull centre)."""
+        centre = (self.successes + 2.0) / (self.n + 4.0)
+        return math.sqrt(centre * (1.0 - centre) / self.n)
+
+    def interval(self, alpha):
+        """Return the exact binomial interval (low, high)."""
+        return clopper_pearson(self.successes, self.n, 1.0 - alpha)
+
+    def reach(self, alpha):
+        """Return half the width of the interval."""
+        low, high = self.interval(alpha)
+        return (high - low) / 2.0
+
+    @property
+    def law(self):
+        """Name the law of the interval."""
+        return f"Clopper-Pearson of {self.n}"
+
+
+@dataclass(frozen=True)
+class Exact:
+    """A value without sampling error: a closed form, a proof, a count of all there are."""
+
+    value: float
+    standard_error: float = 0.0
+
+    def interval(self, alpha):
+        """Return the value twice."""
+        return self.value, self.value
+
+    def reach(self, alpha):
+        """Return 0."""
+        return 0.0
+
+    @property
+    def law(self):
+        """Name the law of the interval."""
+        return "exact"
 
 
 def of_replicates(values):
@@ -29,7 +117,8 @@ def of_replicates(values):
     values = np.asarray(values, dtype=float)
     if values.size < 2:
         return Mean(float(values.mean()), math.nan)
-    return Mean(float(values.mean()), float(values.std(ddof=1) / math.sqrt(values.size)))
+    error = float(values.std(ddof=1) / math.sqrt(values.size))
+    return Mean(float(values.mean()), error, values.size - 1)
 
 
 def of_power(moments, order, n_draws):
@@ -47,6 +136,6 @@ def of_power(moments, order, n_draws):
 
 
 def of_share(successes, n_draws):
-    """Return a binomial share with its standard error, never zero (Agresti-Coull centre)."""
-    centre = (successes + 2.0) / (n_draws + 4.0)
-    return Mean(successes / n_draws, math.sqrt(centre * (1.0 - centre) / n_draws))
+    """Return a binomial share with its standard error, never zero, as a mean."""
+    share = Share(int(successes), int(n_draws))
+    return Mean(share.value, share.standard_error)

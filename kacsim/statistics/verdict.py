@@ -1,106 +1,191 @@
-"""Verdicts on published numbers and claims: the only home of the significance level."""
+"""Verdicts: the interval of what was measured against the set of values that a text allows.
+
+The only home of the level, the rules that make the sets, and the words for the outcome. Which rule
+serves which row, with its reason, stands in reports/published/.
+"""
 
 import math
 from dataclasses import dataclass
 
-from scipy import special
+from kacsim.statistics import estimate
 
-FAMILY_ERROR = 0.01  # chance of one wrong "not reproduced" or more in the whole table, by Holm
-REPRODUCED, NOT_REPRODUCED, CORRECTED = "reproduced", "not reproduced", "corrected"
-UNDECIDED = "undecided"  # too few draws to tell the printed formula from the corrected one
+FAMILY_ERROR = 0.01  # chance that one interval or more of a text misses its quantity
+REPRODUCED, CORRECTED, CONTRADICTED = "reproduced", "corrected", "contradicted"
+UNDECIDED, NOT_TESTABLE = "undecided", "not testable"
+VERDICTS = (REPRODUCED, CORRECTED, CONTRADICTED, UNDECIDED, NOT_TESTABLE)
+RULES = ("digits", "words", "implied", "direction", "never", "always", "untestable")
+KINDS = {
+    "printed": "printed numbers",
+    "stated": "stated results",
+    "implied": "consequences of printed formulas",
+    "check": "checks of our own code",
+}
+DEVIATIONS = 3.5  # of the published quantity about its mean that a printed number is allowed
+TOLERANCE = 0.01  # of a value that a printed formula implies
+QUARTER = 0.25  # of the distance to the formula that it must be told from
+RARE = 1e-3  # rate of violations below which "never" stands without a proof
+NEAR = 0.1  # of a set's width: a quantity so near its edge may stay undecided
+POWER = 1.6449  # normal deviate that 95 of 100 draws stay below
+
+
+@dataclass(frozen=True)
+class Part:
+    """One component of a row: "at every N" has one for each N.
+
+    Attributes
+    ----------
+    measured : Mean, Share (of violations, for never and always) or Exact
+    label : what tells it from the row's other components
+    printed : value that the printed formula implies here (rule *implied*); nan without one
+    rival : value of the formula that the printed one must be told from; nan without one
+    corrected : value of the right formula, for a text known to be wrong; else nan
+    """
+
+    measured: object
+    label: str = ""
+    printed: float = math.nan
+    rival: float = math.nan
+    corrected: float = math.nan
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What this run measured on one published number or claim.
+    """What this run measured on one row of reports/published/.
 
     Attributes
     ----------
-    claim : id in reports/published.yaml
-    measured, standard_error : the measured quantity; an error of 0 marks an exact count
-    published_error : standard error of the published value itself, where its law is known
-    printed : what the printed text implies here, where that is no fixed number; else nan
-    corrected : what it should be, for a text known to be wrong; else nan
-    evidence : one sentence with what else was seen; figures come from the run
+    claim : id of the row
+    parts : tuple of Part, at least one unless the row is not testable
+    evidence : what else was seen, in sentences; figures come from the run
     """
 
     claim: str
-    measured: float
-    standard_error: float
-    published_error: float = 0.0
-    printed: float = math.nan
-    corrected: float = math.nan
+    parts: tuple
     evidence: str = ""
 
 
-def statistic(measured, reference, error):
-    """Return z = (measured - reference) / error; infinite if an exact count differs."""
-    gap = measured - reference
-    if gap == 0.0:
-        return 0.0
-    return gap / error if error > 0.0 else math.copysign(math.inf, gap)
+def finding(claim, measured, evidence="", **part):
+    """Return a finding of one component."""
+    return Finding(claim, (Part(measured, **part),), evidence)
 
 
-def reference(finding, entry):
-    """Return the value that a finding is tested against."""
-    return entry["value"] if math.isnan(finding.printed) else finding.printed
+def half_unit(digits):
+    """Return half a unit of the last printed digit of a number, given as text."""
+    places = len(digits.partition(".")[2])
+    return 0.5 * 10.0**-places
 
 
-def p_value(z, kind):
-    """Return the p-value: two-sided for a number, of "no effect" for a stated direction."""
-    if kind in ("number", "correction"):
-        return float(2.0 * special.ndtr(-abs(z)))
-    return float(special.ndtr(-z))
+def around(value, *rivals):
+    """Return (low, high): a value that a formula implies, and what still counts as that value."""
+    gaps = [QUARTER * abs(value - rival) for rival in rivals if not math.isnan(rival)]
+    half = min([TOLERANCE * abs(value), *gaps])
+    return value - half, value + half
 
 
-def holm(p_values):
-    """Return Holm's adjusted p-values, in the given order."""
-    order = sorted(range(len(p_values)), key=lambda k: p_values[k])
-    adjusted, largest = [0.0] * len(p_values), 0.0
-    for rank, k in enumerate(order):
-        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[k]))
-        adjusted[k] = largest
-    return adjusted
-
-
-def judge(findings, published):
-    """Return one row per finding: statistic, adjusted p-value and verdict.
+def allowed(entry, part):
+    """Return the closed set (low, high) that the text allows, by the rule of its row.
 
     Parameters
     ----------
-    findings : list of Finding
-    published : dict, claim id -> entry of reports/published.yaml with ``kind`` and ``value``.
-        Kinds: *number* is reproduced unless the measured value contradicts it; *effect* (value:
-        the bound) is reproduced only if the measured value is significantly above the bound;
-        *correction* is corrected if the printed value is rejected and the corrected one is not,
-        undecided if neither is. A value read off a figure has a ``reading_error``.
+    entry : dict of reports/published/, with ``rule`` and what the rule needs: ``printed`` (the
+        digits, as text) and ``spread`` (standard deviation of the published quantity at its
+        published size); ``low`` and ``high`` (words); ``margin`` (direction)
+    part : Part
+    """
+    rule = entry["rule"]
+    if rule == "digits":
+        half = half_unit(entry["printed"]) + DEVIATIONS * entry["spread"]
+        return float(entry["printed"]) - half, float(entry["printed"]) + half
+    if rule == "words":
+        return entry["low"], entry["high"]
+    if rule == "direction":
+        return entry["margin"], math.inf
+    if rule == "implied":
+        return around(part.printed, part.rival, part.corrected)
+    return 0.0, RARE
+
+
+def correction(part):
+    """Return the set (low, high) of the right formula's value; None if the row has none."""
+    if math.isnan(part.corrected):
+        return None
+    return around(part.corrected, part.printed)
+
+
+def n_intervals(findings):
+    """Return over how many intervals the chance of an error is shared: exact values have none."""
+    return sum(not _exact(part) for found in findings for part in found.parts)
+
+
+def judge(found, entry, alpha):
+    """Return (verdict of the row, list of dicts of its parts).
+
+    Parameters
+    ----------
+    found : Finding
+    entry : its row of reports/published/
+    alpha : level of one interval
 
     Returns
     -------
-    list of dict with keys z, p_value, adjusted_p_value, verdict
+    verdict : *reproduced* if every part is, *contradicted* if one is, *corrected* if every part
+        that is contradicted lies in the right formula's set
+    parts : dicts with low, high (the interval), allowed, correction (sets; None without one),
+        verdict, seen (how far beyond the set's edge a quantity must lie to be contradicted in 95
+        of 100 runs; 0 for exact values), pull (deviation from the value that stands, in standard
+        errors; nan without one), near (within a tenth of the set's width of its edge)
     """
-    rows = []
-    for finding in findings:
-        entry = published[finding.claim]
-        reading = entry.get("reading_error", 0.0)
-        error = math.hypot(finding.standard_error, finding.published_error, reading)
-        z = statistic(finding.measured, reference(finding, entry), error)
-        rows.append({"z": z, "p_value": p_value(z, entry["kind"]), "kind": entry["kind"]})
-    adjusted = holm([row["p_value"] for row in rows])
-    for finding, row, p in zip(findings, rows, adjusted, strict=True):
-        row["adjusted_p_value"] = p
-        row["verdict"] = _verdict(finding, row["kind"], p < FAMILY_ERROR, len(rows))
-    return rows
+    if entry["rule"] == "untestable":
+        return NOT_TESTABLE, []
+    parts = [_part(part, entry, alpha) for part in found.parts]
+    words = {part["verdict"] for part in parts}
+    for word in (CONTRADICTED, CORRECTED, UNDECIDED):
+        if word in words:
+            return word, parts
+    return REPRODUCED, parts
 
 
-def _verdict(finding, kind, rejected, family):
-    if kind == "number":
-        return NOT_REPRODUCED if rejected else REPRODUCED
-    if kind == "effect":
-        return REPRODUCED if rejected else NOT_REPRODUCED
-    error = math.hypot(finding.standard_error, finding.published_error)
-    z = statistic(finding.measured, finding.corrected, error)
-    stands = p_value(z, "correction") * family >= FAMILY_ERROR
-    if rejected:
-        return CORRECTED if stands else NOT_REPRODUCED
-    return UNDECIDED if stands else REPRODUCED
+def _part(part, entry, alpha):
+    measured = part.measured
+    interval, wanted, right = measured.interval(alpha), allowed(entry, part), correction(part)
+    word = _verdict(interval, wanted, right)
+    if entry["rule"] in ("never", "always") and measured.value > 0.0:
+        word = CONTRADICTED
+    width = wanted[1] - wanted[0]
+    distance = min(abs(measured.value - edge) for edge in wanted)
+    return {
+        "low": interval[0],
+        "high": interval[1],
+        "allowed": wanted,
+        "correction": right,
+        "verdict": word,
+        "seen": measured.reach(alpha) + POWER * measured.standard_error,
+        "pull": _pull(part, entry, word),
+        "near": distance <= NEAR * (width if math.isfinite(width) else wanted[0]),
+    }
+
+
+def _verdict(interval, wanted, right):
+    if any(math.isnan(end) for end in interval):
+        return UNDECIDED
+    if _inside(interval, wanted):
+        return REPRODUCED
+    if interval[1] >= wanted[0] and interval[0] <= wanted[1]:
+        return UNDECIDED
+    return CORRECTED if right and _inside(interval, right) else CONTRADICTED
+
+
+def _inside(interval, wanted):
+    return wanted[0] <= interval[0] and interval[1] <= wanted[1]
+
+
+def _exact(part):
+    return isinstance(part.measured, estimate.Exact)
+
+
+def _pull(part, entry, word):
+    """Return the deviation, in errors, from a known value that stands: normal if all is well."""
+    if _exact(part) or entry["rule"] != "implied":
+        return math.nan
+    stands = {REPRODUCED: part.printed, CORRECTED: part.corrected}.get(word, math.nan)
+    return (part.measured.value - stands) / part.measured.standard_error

@@ -90,8 +90,9 @@ def table(names, found):
         variables[key] = described(values, ("part",), text or key.replace("_", " "))
     for key, text in NUMBERS.items():
         variables[key] = described(np.array([p[key] for p in parts], float), ("part",), text)
-    attributes = {"family_error": verdict.FAMILY_ERROR, "n_intervals": many}
-    return xr.Dataset(variables, attrs=attributes)
+    shared = "intervals that share the chance of an error"
+    variables["n_intervals"] = described(many, (), shared)
+    return xr.Dataset(variables, attrs={"family_error": verdict.FAMILY_ERROR})
 
 
 def _untestable(published):

@@ -57,6 +57,20 @@ def pm(value, error):
     return f"{fixed(value, decimals(error))} ± {fixed(error, decimals(error))}"
 
 
+def span(low, high):
+    """Return an interval as text, both ends with the digits that show its width."""
+    low, high = float(low), float(high)
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return f"{number(low)} to {number(high)}"
+    if 0.0 < (size := max(abs(low), abs(high))) < 1e-3:
+        k = math.floor(math.log10(size))
+        return f"({span(low / 10.0**k, high / 10.0**k)})·{power(k)}"
+    if not high > low:
+        return number(low)
+    places = decimals((high - low) / 2.0)
+    return f"{fixed(low, places)} to {fixed(high, places)}"
+
+
 def beside(value, error):
     """Return a number with the digits of an estimate that it stands beside, as `pm` shows it."""
     value = float(value)

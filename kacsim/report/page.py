@@ -7,7 +7,6 @@ text). No time, no random id and no network address: the same inputs give the sa
 
 import functools
 import json
-import math
 import os
 import re
 from pathlib import Path
@@ -23,23 +22,10 @@ from kacsim import files, store
 from kacsim.boltzmann import bkw
 from kacsim.items import published
 from kacsim.kernels.provenance import ROOT
-from kacsim.report.numbers import (
-    FIXED_SPACE,
-    beside,
-    bound,
-    fixed,
-    listed,
-    measured,
-    number,
-    pm,
-    power,
-    printed,
-    subscripted,
-    typeset,
-)
+from kacsim.report import registered, verdicts
+from kacsim.report.numbers import bound, listed, measured, number, pm, subscripted
 
 TEXTS = ROOT / "reports"
-SIGNS = {"reproduced": "✓", "corrected": "↻", "not reproduced": "✗", "undecided": "?"}
 FORMATS = ("svg", "png", "pdf")  # every figure is drawn in all of them
 
 
@@ -62,7 +48,7 @@ def write(items, datasets_folder, figures_folder, output, options=""):
     paths = {name: Path(datasets_folder) / f"{name}.nc" for name in items}
     datasets = {name: store.read(path) for name, path in paths.items()}
     env, folder = environment(), Path(output).parent
-    claims = _claims(datasets.values(), published())
+    claims = verdicts.rows(datasets.values(), published())
     captions = yaml.safe_load(read_text(TEXTS / "captions.yaml"))
     shown = []
     for name in items:
@@ -77,14 +63,14 @@ def write(items, datasets_folder, figures_folder, output, options=""):
         item["links"] = {f: _link(figure.with_suffix(f".{f}"), folder) for f in FORMATS}
         item["numbers_link"] = _link(figure.with_suffix(".csv"), folder)
         shown.append(item)
-    verdicts = [row["verdict"] for row in claims.values()]
     html = env.get_template("report.html.j2").render(
         style=Markup(read_text(TEXTS / "style.css")),
         texts=_sections(env, datasets, claims, shown),
         items=shown,
         claims=claims,
-        counts={word: verdicts.count(word) for word in SIGNS},
-        family_errors=sorted({row["family_error"] for row in claims.values()}),
+        kinds=verdicts.counted(claims),
+        intervals=_intervals(datasets),
+        registered=_registered(datasets, options),
         sources=sorted({dataset.attrs["source"] for dataset in datasets.values()}),
         seeds=sorted({dataset.attrs["settings"]["seed"] for dataset in datasets.values()}),
         configuration=_configuration(datasets),
@@ -103,7 +89,7 @@ def environment():
     loader, undefined = jinja2.FileSystemLoader(TEXTS), jinja2.StrictUndefined
     trim = {"trim_blocks": True, "lstrip_blocks": True}
     env = jinja2.Environment(loader=loader, autoescape=True, undefined=undefined, **trim)
-    env.globals |= {"number": number, "listed": listed, "pm": pm, "signs": SIGNS}
+    env.globals |= {"number": number, "listed": listed, "pm": pm, "signs": verdicts.SIGNS}
     env.filters["subscripted"] = subscripted
     env.globals["critical_time"] = bkw.critical_time
     return env
@@ -136,41 +122,24 @@ def _configuration(datasets):
     return re.sub(r"\[[^]]*\]", lambda found: " ".join(found[0].split()), text)
 
 
-# Claims
-
-
-def _claims(datasets, entries):
-    """Return claim id -> its row in a table of claims, with its numbers as text."""
-    found = {}
-    for dataset in datasets:
-        columns = {name: dataset[name].values.tolist() for name in dataset if "claim" in dataset}
-        for cells in zip(*columns.values(), strict=True):
-            row = dict(zip(columns, cells, strict=True))
-            row["family_error"] = dataset.attrs["family_error"]
-            found[row["claim"]] = row | _worded(row, entries[row["claim"]])
-    return found
-
-
-def _worded(row, entry):
-    """Return a claim's published entry, and the texts of its numbers."""
-    error = row["standard_error"] or row["published_error"]
-    same = functools.partial(beside, error=error)
-    value, z, p = entry["value"], row["z"], row["adjusted_p_value"]
-    implied = value is None
-    reference = same(row["reference"]) if implied else printed(value, row["published_error"])
+def _intervals(datasets):
+    """Return the tables of claims: name of the text, its intervals and its chance of an error."""
     return {
-        "item": entry["item"],
-        "words": bound(entry["text"]),
-        "source": entry["source"].replace(" ", FIXED_SPACE).replace(f",{FIXED_SPACE}", ", "),
-        "implied": implied,
-        "reference_text": f"> {reference}" if row["kind"] == "effect" else reference,
-        "measured_text": pm(row["measured"], row["standard_error"]),
-        "corrected_text": "" if math.isnan(row["corrected"]) else same(row["corrected"]),
-        "exact": not error > 0,
-        "z_text": "+" * (z > 0) + fixed(z, 0 if abs(z) >= 100 else 1),
-        "p_text": f"p < {power(-300)}" if p < 1e-300 else f"p = {number(p, 2 if p < 0.1 else 3)}",
-        "evidence": bound(typeset(row["evidence"])),
+        name.partition("_")[0]: (int(dataset["n_intervals"]), dataset.attrs["family_error"])
+        for name, dataset in datasets.items()
+        if "claim" in dataset
     }
+
+
+def _registered(datasets, options):
+    """Return the commit of the sets that were fixed before the run, and what has changed since.
+
+    None for a run of another configuration, which nothing was registered for.
+    """
+    known = None if options else registered.read(TEXTS / registered.PATH.name)
+    if known is None:
+        return None
+    return {"commit": known["commit"], "changes": registered.changes(datasets, known)}
 
 
 # Items and texts

@@ -65,27 +65,33 @@ class Page(HTMLParser):
         return [attrs for tag, attrs in self.tags if tag in names]
 
 
+# claim, kind, rule, verdict, evidence; of it: label, law, verdict, measured, error, low, high, set,
+# right set, departure seen
 ROWS = [
-    (
-        "small",
-        "number",
-        "reproduced",
-        0.0205,
-        0.00013,
-        0.0013,
-        np.nan,
-        1.4,
-        "Seen -2.5 <b>so</b>, 1.9e-10.",
-    ),
-    ("faster", "effect", "not reproduced", 1e-5, 2e-5, 0.0, np.nan, 0.5, ""),
-    ("rate", "correction", "corrected", 4.5949, 0.003, 0.0, 4.5951, 13.8, "E v₁⁴."),
-    ("never", "number", "not reproduced", 22.0, 0.0, 0.0, np.nan, np.inf, "236 steps."),
+    ("small", "printed", "digits", "reproduced", "Seen -2.5 <b>so</b>, 1.9e-10."),
+    ("faster", "stated", "direction", "contradicted", ""),
+    ("rate", "implied", "implied", "corrected", "E v₁⁴."),
+    ("never", "stated", "never", "contradicted", "236 steps."),
+    ("gone", "stated", "untestable", "not testable", ""),
+    ("own", "check", "words", "undecided", ""),
 ]
+NONE, ENDLESS = np.nan, np.inf
+PARTS = [
+    ("small", "", "normal", 0.0205, 0.00013, 0.02, 0.021, 0.0145, 0.0229, NONE, NONE, 7e-4),
+    ("faster", "N = 2", "normal", 1e-5, 2e-6, 0.5e-5, 1.5e-5, 1e-4, ENDLESS, NONE, NONE, 8e-6),
+    ("faster", "N = 3", "normal", 3e-4, 2e-6, 2.9e-4, 3.1e-4, 1e-4, ENDLESS, NONE, NONE, 8e-6),
+    ("rate", "", "exact", 4.5949, 0, 4.5949, 4.5949, 4.5434, 4.564, 4.5848, 4.6054, 0.0),
+    ("never", "", "exact", 22.0, 0.0, 22.0, 22.0, 0.0, 0.001, NONE, NONE, 0.0),
+    ("own", "", "t with 9 degrees", 0.5, 0.1, 0.1, 0.9, 0.4, 0.6, NONE, NONE, 0.6),
+]
+PART_WORDS = ["reproduced", "contradicted", "reproduced", "corrected", "contradicted", "undecided"]
 PUBLISHED = {
-    "small": {"value": 0.0187, "text": "TVN at the small step"},
-    "faster": {"value": 0, "text": "Poisson is faster"},
-    "rate": {"value": None, "text": "The rate is right"},
-    "never": {"value": 0, "text": "It never grows"},
+    "small": {"printed": "0.0187", "text": "TVN at the small step", "reason": "One TVN"},
+    "faster": {"margin": 1e-4, "text": "Poisson is faster", "reason": "A tenth"},
+    "rate": {"text": "The rate is right", "reason": "Two rates"},
+    "never": {"text": "It never grows", "reason": "A step would do"},
+    "gone": {"text": "It is elegant", "reason": "A matter of taste"},
+    "own": {"words": "half", "low": 0.4, "high": 0.6, "text": "Our sum", "reason": "A check"},
 }
 TEXTS = {
     "label": "Fig. 4",
@@ -94,19 +100,17 @@ TEXTS = {
     "see": "TVN {{ measured('tvn', algorithm='bird') }} {{ published }}.",
     "alt": 'TVN {{ measured("tvn", algorithm="bird") }} <i>or</i> "so"',
 }
+STATE = {"state": "slip", "affected": "Nobody.", "follows": "Nothing."}
 KNOWN = {
     "name": "Kac paper",
     "about": "A paper.",
     "errors": [
-        {"title": "A rate", "where": "a", "printed": "b", "right": "c", "claims": ["rate", "gone"]},
-        {
-            "title": "A sign",
-            "where": "a",
-            "printed": "b",
-            "right": "c",
-            "claims": [],
-            "note": "{{ number(datasets.kac_fig4.floor[0]) }}",
-        },
+        STATE
+        | {"title": "A rate", "where": "a", "printed": "b", "right": "c"}
+        | {"claims": ["rate", "left"]},
+        STATE
+        | {"title": "A sign", "where": "a", "printed": "b", "right": "c", "claims": []}
+        | {"note": "{{ number(datasets.kac_fig4.floor[0]) }}"},
     ],
 }
 
@@ -124,15 +128,21 @@ def figure_dataset():
 
 
 def numbers_dataset():
-    names = "claim kind verdict measured standard_error published_error corrected z evidence"
-    columns = dict(zip(names.split(), map(list, zip(*ROWS, strict=True)), strict=True))
-    columns |= {"reference": [0.0187, 0.0, 4.5537, 0.0], "adjusted_p_value": [0.9, 1, 2e-42, 0.0]}
-    return {
-        name: store.described(np.array(column, dtype=object), ("row",), name)
-        if isinstance(column[0], str)
-        else store.described(np.array(column, dtype=float), ("row",), name)
+    names = ["claim", "kind", "rule", "verdict", "evidence"]
+    row = dict(zip(names, zip(*ROWS, strict=True), strict=True))
+    row["text"] = [PUBLISHED[claim]["text"] for claim in row["claim"]]
+    names = "of label law measured standard_error low high allowed_low allowed_high right_low"
+    names = [*names.split(), "right_high", "seen"]
+    part = dict(zip(names, zip(*PARTS, strict=True), strict=True)) | {"part_verdict": PART_WORDS}
+    return {"n_intervals": store.described(4, (), "intervals")} | {
+        name: store.described(array(column), (dim,), name)
+        for dim, columns in (("row", row), ("part", part))
         for name, column in columns.items()
     }
+
+
+def array(column):
+    return np.array(column, object if isinstance(column[0], str) else float)
 
 
 @pytest.fixture
@@ -149,9 +159,9 @@ def write(tmp_path, monkeypatch):
     (texts / "captions.yaml").write_text(yaml.safe_dump(captions), encoding="utf-8")
     errata = {"kac": KNOWN, "boltzmann": KNOWN | {"name": "Boltzmann paper"}}
     (texts / "errata.yaml").write_text(yaml.safe_dump(errata, sort_keys=False), encoding="utf-8")
-    entries = {
-        k: e | {"item": "kac_fig4", "source": "Kac paper, eq. (8)"} for k, e in PUBLISHED.items()
-    }
+    rules = {row[0]: row[2] for row in ROWS}
+    place = {"item": "kac_fig4", "source": "Kac paper, eq. (8)"}
+    entries = {key: entry | place | {"rule": rules[key]} for key, entry in PUBLISHED.items()}
     monkeypatch.setattr(report, "TEXTS", texts)
     monkeypatch.setattr(report, "published", lambda: entries)
     own = {"seed": 77, "engine": "forward", "n_draws": 2000, "n_replicates": 3, "n_particles": 5}
@@ -168,9 +178,9 @@ def write(tmp_path, monkeypatch):
         content = xr.Dataset(variables, attrs=attributes)
         store.write(content, data / f"{name}.nc", title="t", settings=settings)
 
-    def run(names=("kac_fig4", "kac_numbers")):
+    def run(names=("kac_fig4", "kac_numbers"), options="--configfile a.yaml"):
         output = tmp_path / "report" / "report.html"
-        report.write(names, data, figures, output, "--configfile a.yaml")
+        report.write(names, data, figures, output, options)
         return output
 
     run.folder = tmp_path
@@ -235,20 +245,36 @@ def test_tables_and_figures_are_labelled(html):
     assert page.all("html") == [{"lang": "en"}]
 
 
-def test_every_verdict_is_counted_and_has_a_word_and_a_sign(html):
+def test_every_verdict_is_counted_by_kind_and_has_a_word_and_a_sign(html):
     text = " ".join(Page(html).text.split())
-    assert "1 of 4 published results reproduced, 1 corrected, 2 not reproduced." in text
-    for sign in ("✓ reproduced", "↻ corrected", "✗ not reproduced"):
+    assert "1 printed numbers: 1 reproduced." in text
+    assert "3 stated results: 2 contradicted, 1 not testable." in text
+    assert "1 consequences of printed formulas: 1 corrected." in text
+    assert "1 checks of our own code, 1 undecided" in text
+    for sign in ("✓ reproduced", "↻ corrected", "✗ contradicted", "? undecided", "– not testable"):
         assert sign in text
 
 
-def test_claims_show_published_measured_and_statistic(html):
+def test_claims_show_set_interval_and_departure(html):
     text = " ".join(Page(html).text.replace("\u00a0", " ").split())
-    assert "0.0187 ± 0.0013 0.02050 ± 0.00013 +1.4 p = 0.9 Fig. 4 Kac paper, eq. (8)" in text
-    assert "> 0 (1.0 ± 2.0)·10⁻⁵ +0.5 p = 1" in text
-    assert "4.5537 implied by the text corrected: 4.5951 4.5949 ± 0.0030 +13.8" in text
-    assert "0 22 exact count" in text
+    assert "0.0187: 0.0145 to 0.0229 0.02000 to 0.02100 0.02050 ± 0.00013 0.0007 Fig. 4" in text
+    assert "2 components: 1 reproduced, 1 contradicted; shown N = 2" in text
+    assert "at least 0.0001 (0.50 to 1.50)·10⁻⁵ (1.00 ± 0.20)·10⁻⁵ 8·10⁻⁶" in text
+    assert "4.543 to 4.564 right: 4.585 to 4.605 4.5949 exact any" in text
+    assert "no violation, or at most 1 in 1000 22 exact" in text
+    assert "“half”: 0.4 to 0.6 0.10 to 0.90" in text
+    assert "Set (untestable): A matter of taste." in text
     assert "Seen −2.5 <b>so</b>, 1.9·10⁻¹⁰." in text  # escaped: text, not markup
+
+
+def test_registered_sets_and_their_changes_are_shown(write, monkeypatch):
+    known = {"commit": "0123abc", "intervals": {"kac": 5}, "rows": {"old": {}}}
+    monkeypatch.setattr(report.registered, "read", lambda path: known)
+    text = " ".join(Page(write(options="").read_text(encoding="utf-8")).text.split())
+    assert "of commit 0123abc , made before anything was drawn with this seed. Changed" in text
+    assert "kac: 4 intervals, registered 5" in text
+    assert "old: left out" in text
+    assert "no registered sets" in Page(write().read_text(encoding="utf-8")).text
 
 
 def test_an_item_shows_what_its_run_used(html):
@@ -258,12 +284,12 @@ def test_an_item_shows_what_its_run_used(html):
     assert "snakemake -c2 kac_fig4 --configfile a.yaml" in text
     assert "algorithm width 0.05 width 0.1 bird 0.0300 ± 0.0010 0.0200 ± 0.0010" in text
     assert "noise floor 0.0131 0.0093" in text
-    assert "at most 0.01" in text
+    assert "4 of the Kac paper share a chance of 0.01 that one misses" in text
 
 
 def test_errors_of_a_text_come_with_their_evidence(html):
     text = " ".join(Page(html).text.replace("\u00a0", " ").split())
-    assert "printed text 4.5537, correction 4.5951, measured 4.5949 ± 0.0030 (z = +13.8" in text
+    assert "the text allows 4.543 to 4.564, right is 4.585 to 4.605, measured 4.5949" in text
     assert "Evidence 0.0093" in text
     assert "Boltzmann paper" not in text  # none of its items is on the page
 

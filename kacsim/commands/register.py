@@ -25,5 +25,5 @@ def run(arguments):
     paths = sorted(Path(arguments.datasets).glob("*_numbers.nc"))
     if not paths:
         raise files.StoreError(f"{arguments.datasets}: holds no *_numbers.nc; run snakemake first")
-    registered.write({path.stem: store.read(path) for path in paths}, commit)
+    registered.write({path.stem: store.read(path) for path in paths}, commit, registered.PATH)
     print(f"{registered.PATH}: the sets of commit {commit}")

@@ -44,8 +44,8 @@ def _end(value):
     return value if math.isinf(value) else float(f"{value:.{DIGITS}g}")
 
 
-def write(datasets, commit, path=PATH):
-    """Write the sets of some datasets as those of a commit."""
+def write(datasets, commit, path):
+    """Write the sets of some datasets as those of a commit, to a file."""
     content = {"commit": commit} | sets(datasets)
     text = yaml.safe_dump(content, sort_keys=False, default_flow_style=None, width=110)
     files.replace_file(path, lambda name: Path(name).write_text(HEAD + text, encoding="utf-8"))
@@ -57,8 +57,8 @@ HEAD = """\
 """
 
 
-def read(path=PATH):
-    """Return what is registered, None if nothing is."""
+def read(path):
+    """Return what a file holds, None if there is none."""
     return files.read_yaml(path) if Path(path).exists() else None
 
 

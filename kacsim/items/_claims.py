@@ -129,16 +129,40 @@ def _part(found, part, judged):
 # The figure: every row in units of what its text allows
 
 
-def draw(dataset):
-    """Draw the interval of every row in units of its set, a band per kind of set, and the pulls."""
+def joined(tables):
+    """Return several tables as one: rows and components of one text after another's."""
+    columns = [xr.Dataset({name: v for name, v in one.items() if v.dims}) for one in tables]
+    rows, parts = (
+        xr.concat([one[[n for n in one if one[n].dims == (dim,)]] for one in columns], dim)
+        for dim in ("row", "part")
+    )
+    return xr.merge([rows, parts])
+
+
+def draw(dataset, row_height=0.34, *, words=True):
+    """Draw the interval of every row in units of its set, a band per kind of set, and the pulls.
+
+    Parameters
+    ----------
+    dataset : a table
+    row_height : inch
+    words : whether rows have their texts beside them
+    """
     bands = _bands(dataset)
-    heights = [0.5 + 0.34 * len(rows) for rows in bands.values()]
-    figure, axes = plotting.stack([*heights, 2.6], width=9.0)
+    heights = [0.5 + row_height * len(rows) for rows in bands.values()]
+    figure, axes = plotting.stack([*heights, 2.4], width=9.0)
     for axis, (band, rows) in zip(axes, bands.items(), strict=False):
-        _band(axis, dataset, band, rows)
+        _band(axis, dataset, band, rows, 4.0 if words else 2.0)
+        if words:
+            texts = [textwrap.fill(str(dataset.text.values[k]), 74) for k in rows]
+            axis.set_yticks(range(len(rows)), texts)
+            axis.tick_params(axis="y", labelsize=6.5)
+            axis.grid(axis="y", color="0.92", zorder=0)
+        else:
+            axis.set_yticks([])
     _pulls(axes[-1], dataset)
-    words = [word for word in verdict.VERDICTS if word in dataset.verdict.values]
-    handles = [_mark(axes[0], [], [], word, label=word) for word in words]
+    there = [word for word in verdict.VERDICTS if word in dataset.part_verdict.values]
+    handles = [_mark(axes[0], [], [], word, 4.0) for word in there]
     figure.legend(handles=handles, loc="outside upper center", ncols=5, frameon=False)
     return figure
 
@@ -167,7 +191,7 @@ def in_units(part):
     return (values - (low + high) / 2.0) / ((high - low) / 2.0)
 
 
-def _band(axis, dataset, band, rows):
+def _band(axis, dataset, band, rows, size):
     one_sided = band == BANDS[1]
     ends = (-REACH, 2.0 * REACH) if one_sided else (-REACH, REACH)
     axis.axvspan(*((1.0, ends[1]) if one_sided else (-1.0, 1.0)), color="0.93", lw=0, zorder=0)
@@ -178,12 +202,8 @@ def _band(axis, dataset, band, rows):
             part = dataset.isel(part=p)
             value, low, high = np.clip(in_units(part), *ends)
             word = str(part.part_verdict.values)
-            axis.plot([low, high], [place + shift] * 2, color=_style(word)[0], lw=1.2)
-            _mark(axis, [value], [place + shift], word)
-    texts = [textwrap.fill(str(dataset.text.values[k]), 74) for k in rows]
-    axis.set_yticks(range(len(rows)), texts)
-    axis.tick_params(axis="y", labelsize=6.5)
-    axis.grid(axis="y", color="0.92", zorder=0)
+            axis.plot([low, high], [place + shift] * 2, color=_style(word)[0], lw=0.3 * size)
+            _mark(axis, [value], [place + shift], word, size)
     axis.set_ylim(len(rows) - 0.4, -0.6)
     axis.set_xlim(*(1.03 * end for end in ends))
     unit = "its lower end" if one_sided else "half its width, from its middle"
@@ -196,9 +216,9 @@ def _style(word):
     return plotting.COLOURS[(2, 0, 1, 3, 4)[k]], plotting.MARKERS[k]
 
 
-def _mark(axis, x, y, word, label=None):
+def _mark(axis, x, y, word, size):
     colour, marker = _style(word)
-    (handle,) = axis.plot(x, y, marker, color=colour, ls="", ms=4, label=label)
+    (handle,) = axis.plot(x, y, marker, color=colour, ls="", ms=size, label=word)
     return handle
 
 

@@ -11,7 +11,6 @@ import os
 import re
 from pathlib import Path
 from urllib.parse import quote
-from xml.etree import ElementTree
 
 import jinja2
 import numpy as np
@@ -22,7 +21,7 @@ from kacsim import files, store
 from kacsim.boltzmann import bkw
 from kacsim.items import published
 from kacsim.kernels.provenance import ROOT
-from kacsim.report import registered, verdicts
+from kacsim.report import overview, registered, svg, verdicts
 from kacsim.report.numbers import bound, listed, measured, number, pm, subscripted
 
 TEXTS = ROOT / "reports"
@@ -69,6 +68,7 @@ def write(items, datasets_folder, figures_folder, output, options=""):
         items=shown,
         claims=claims,
         kinds=verdicts.counted(claims),
+        overview=overview.drawn(datasets.values()),
         intervals=_intervals(datasets),
         registered=_registered(datasets, options),
         sources=sorted({dataset.attrs["source"] for dataset in datasets.values()}),
@@ -152,8 +152,8 @@ def _item(env, name, dataset, texts, figure):
     words["measured"] = functools.partial(measured, dataset)
     parts = {key: _rendered(env, text, **words) for key, text in texts.items()}
     alt = " ".join(parts["alt"].striptags().split())
-    svg, box = inline_svg(figure, name, f"{parts['label']}. {alt}")
-    own = {"name": name, "svg": svg, "box": box, "settings": s, "tvn": _tvn_table(dataset)}
+    drawn, box = svg.inline(read_text(figure), figure, name, f"{parts['label']}. {alt}")
+    own = {"name": name, "svg": drawn, "box": box, "settings": s, "tvn": _tvn_table(dataset)}
     if "engine" not in parts:
         own["engine"] = s["engine"]
     if "draws" not in parts:
@@ -196,34 +196,3 @@ def _sections(env, datasets, claims, shown):
         if own:
             found.append(text | {"key": key, "items": own, "errors": errors})
     return found
-
-
-def inline_svg(path, prefix, label):
-    """Return (markup, view box) of an SVG file, fit to stand in a page with others.
-
-    Ids get a prefix, so that they are unique in the page. Metadata, comments, namespaces and the
-    style sheet, which would rule the whole page, are left out.
-    """
-    try:
-        root = ElementTree.fromstring(read_text(path))
-    except ElementTree.ParseError as error:
-        raise files.StoreError(f"{path}: is not SVG: {error}; draw it again") from error
-    for element in list(root.iter()):
-        element.tag, element.tail = _local(element.tag), None
-        element.text = (element.text or "").strip() or None
-        for child in list(element):
-            if _local(child.tag) in ("metadata", "style"):
-                element.remove(child)
-        for key in list(element.attrib):
-            value = " ".join(element.attrib.pop(key).split()).replace("url(#", f"url(#{prefix}-")
-            edge = {"id": f"{prefix}-{value}", "href": value.replace("#", f"#{prefix}-", 1)}
-            element.set(_local(key), edge.get(_local(key), value))
-    box = root.get("viewBox")
-    size = f"--width:{box.split()[2]}"
-    root.attrib = {"viewBox": box, "role": "img", "aria-label": label, "style": size}
-    return Markup(ElementTree.tostring(root, encoding="unicode")), box
-
-
-def _local(name):
-    """Return a tag's or attribute's name without its namespace."""
-    return name.rpartition("}")[2]

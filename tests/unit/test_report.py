@@ -10,6 +10,7 @@ import yaml
 
 from kacsim import files, store
 from kacsim.report import page as report
+from kacsim.report import svg
 
 SVG = """<?xml version="1.0" encoding="utf-8" standalone="no"?>
 <!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">
@@ -27,9 +28,8 @@ L 1 1"/></defs>
 # Figures
 
 
-def test_an_inline_figure_brings_nothing_from_outside(tmp_path):
-    (tmp_path / "a.svg").write_text(SVG, encoding="utf-8")
-    markup, box = report.inline_svg(tmp_path / "a.svg", "kac_fig1", 'TVN < 0.1 & "more"')
+def test_an_inline_figure_brings_nothing_from_outside():
+    markup, box = svg.inline(SVG, "a.svg", "kac_fig1", 'TVN < 0.1 & "more"')
     assert box == "0 0 360 216"
     assert not re.search(r"http|xmlns|xlink|metadata|<style|<!|comment|\n", markup)
     assert set(re.findall(r' id="(.*?)"', markup)) == {
@@ -77,12 +77,40 @@ ROWS = [
 ]
 NONE, ENDLESS = np.nan, np.inf
 PARTS = [
-    ("small", "", "normal", 0.0205, 0.00013, 0.02, 0.021, 0.0145, 0.0229, NONE, NONE, 7e-4),
-    ("faster", "N = 2", "normal", 1e-5, 2e-6, 0.5e-5, 1.5e-5, 1e-4, ENDLESS, NONE, NONE, 8e-6),
-    ("faster", "N = 3", "normal", 3e-4, 2e-6, 2.9e-4, 3.1e-4, 1e-4, ENDLESS, NONE, NONE, 8e-6),
-    ("rate", "", "exact", 4.5949, 0, 4.5949, 4.5949, 4.5434, 4.564, 4.5848, 4.6054, 0.0),
-    ("never", "", "exact", 22.0, 0.0, 22.0, 22.0, 0.0, 0.001, NONE, NONE, 0.0),
-    ("own", "", "t with 9 degrees", 0.5, 0.1, 0.1, 0.9, 0.4, 0.6, NONE, NONE, 0.6),
+    ("small", "", "normal", 0.0205, 0.00013, 0.02, 0.021, 0.0145, 0.0229, NONE, NONE, 7e-4, NONE),
+    (
+        "faster",
+        "N = 2",
+        "normal",
+        1e-5,
+        2e-6,
+        0.5e-5,
+        1.5e-5,
+        1e-4,
+        ENDLESS,
+        NONE,
+        NONE,
+        8e-6,
+        NONE,
+    ),
+    (
+        "faster",
+        "N = 3",
+        "normal",
+        3e-4,
+        2e-6,
+        2.9e-4,
+        3.1e-4,
+        1e-4,
+        ENDLESS,
+        NONE,
+        NONE,
+        8e-6,
+        NONE,
+    ),
+    ("rate", "", "exact", 4.5949, 0, 4.5949, 4.5949, 4.5434, 4.564, 4.5848, 4.6054, 0.0, NONE),
+    ("never", "", "exact", 22.0, 0.0, 22.0, 22.0, 0.0, 0.001, NONE, NONE, 0.0, NONE),
+    ("own", "", "t with 9 degrees", 0.5, 0.1, 0.1, 0.9, 0.4, 0.6, NONE, NONE, 0.6, NONE),
 ]
 PART_WORDS = ["reproduced", "contradicted", "reproduced", "corrected", "contradicted", "undecided"]
 PUBLISHED = {
@@ -132,7 +160,7 @@ def numbers_dataset():
     row = dict(zip(names, zip(*ROWS, strict=True), strict=True))
     row["text"] = [PUBLISHED[claim]["text"] for claim in row["claim"]]
     names = "of label law measured standard_error low high allowed_low allowed_high right_low"
-    names = [*names.split(), "right_high", "seen"]
+    names = [*names.split(), "right_high", "seen", "pull"]
     part = dict(zip(names, zip(*PARTS, strict=True), strict=True)) | {"part_verdict": PART_WORDS}
     return {"n_intervals": store.described(4, (), "intervals")} | {
         name: store.described(array(column), (dim,), name)

@@ -21,6 +21,7 @@ SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = (
     *("report.html.j2", "style.css", "captions.yaml", "errata.yaml"),
     *(f"published/{path.name}" for path in items.PUBLISHED),
+    *(f"inventory/{path.name}" for path in sorted((ROOT / "reports" / "inventory").glob("*.yaml"))),
     *(path.name for path in (ROOT / "reports").glob("registered.yaml")),
 )
 # Thresholds of tails, and the width of the bins that samples are counted in.

@@ -21,7 +21,7 @@ from kacsim import files, store
 from kacsim.boltzmann import bkw
 from kacsim.items import published
 from kacsim.kernels.provenance import ROOT
-from kacsim.report import overview, registered, svg, verdicts
+from kacsim.report import inventory, overview, registered, svg, verdicts
 from kacsim.report.numbers import bound, listed, measured, number, pm, subscripted
 
 TEXTS = ROOT / "reports"
@@ -68,6 +68,7 @@ def write(items, datasets_folder, figures_folder, output, options=""):
         items=shown,
         claims=claims,
         kinds=verdicts.counted(claims),
+        inventory=inventory.entries(TEXTS / "inventory", claims, items),
         overview=overview.drawn(datasets.values()),
         intervals=_intervals(datasets),
         registered=_registered(datasets, options),

@@ -143,6 +143,26 @@ KNOWN = {
 }
 
 
+INVENTORY = [
+    {"id": "kac_a", "where": "section 4", "what": "a TVN", "sort": "number"}
+    | {"printed": "0.0187", "rows": ["small", "elsewhere"]},
+    {
+        "id": "kac_b",
+        "where": "Fig. 4",
+        "what": "two pictures",
+        "sort": "figure",
+        "item": "kac_fig4",
+    },
+    {
+        "id": "kac_c",
+        "where": "section 5",
+        "what": "a name",
+        "sort": "claim",
+        "none": "a definition",
+    },
+]
+
+
 def figure_dataset():
     widths, names = [0.1, 0.05], ["bird", "poisson"]
     described = store.described
@@ -185,6 +205,8 @@ def write(tmp_path, monkeypatch):
     numbers_texts = TEXTS | {"label": "All claims", "see": "", "alt": "", "caption": ""}
     captions = {"kac_fig4": TEXTS, "kac_numbers": numbers_texts | {"engine": "all", "draws": "all"}}
     (texts / "captions.yaml").write_text(yaml.safe_dump(captions), encoding="utf-8")
+    (texts / "inventory").mkdir()
+    (texts / "inventory/kac.yaml").write_text(yaml.safe_dump(INVENTORY), encoding="utf-8")
     errata = {"kac": KNOWN, "boltzmann": KNOWN | {"name": "Boltzmann paper"}}
     (texts / "errata.yaml").write_text(yaml.safe_dump(errata, sort_keys=False), encoding="utf-8")
     rules = {row[0]: row[2] for row in ROWS}
@@ -320,6 +342,14 @@ def test_errors_of_a_text_come_with_their_evidence(html):
     assert "the text allows 4.543 to 4.564, right is 4.585 to 4.605, measured 4.5949" in text
     assert "Evidence 0.0093" in text
     assert "Boltzmann paper" not in text  # none of its items is on the page
+
+
+def test_what_is_printed_is_listed_with_its_rows(html):
+    text = " ".join(Page(html).text.replace("\u00a0", " ").split())
+    assert "Kac paper: 3 entries" in text
+    row = "✓ reproduced TVN at the small step"
+    assert f"section 4 a TVN: 0.0187 (number) {row} Fig. 4 two pictures (figure) figure" in text
+    assert "a name (claim) a definition" in text
 
 
 def test_a_report_without_claims_says_so(write):

@@ -20,8 +20,13 @@ NUMBERS = {
     "pull": "(measured - value that stands) / standard error",
     "near": "1 if within a tenth of the set's width of its edge",
 }
-BANDS = ("two-sided", "one-sided", "exact")
-REACH = 4.0  # of a two-sided band, in half widths of the set; twice as far in the one-sided band
+BANDS = {
+    ("two-sided", "interval"): "intervals",
+    ("one-sided", "interval"): "intervals, one-sided sets",
+    ("two-sided", "exact"): "exact values",
+    ("one-sided", "exact"): "exact values, one-sided sets",
+}
+REACH = 4.0  # of a two-sided band, in half widths of the set; twice as far in a one-sided band
 
 
 def cases(uses, settings):
@@ -58,7 +63,8 @@ def table(names, found):
     ------
     ValueError
         Names a finding whose published entry is another item's (its edits would go unseen here),
-        or an entry of these items that nothing was found on.
+        an entry of these items that nothing was found on, or one that more than one finding is on
+        (of an untestable entry the table makes one itself).
     """
     published = items.published_of(names)
     found = [*found, *_untestable(published)]
@@ -68,6 +74,8 @@ def table(names, found):
             raise ValueError(
                 f"claim = {claim!r}: reports/published has no such entry of {' or '.join(names)}"
             )
+        if known.count(claim) > 1:
+            raise ValueError(f"claim = {claim!r}: {known.count(claim)} findings are on it")
     own_entries = (key for key, entry in published.items() if entry["item"] in names)
     for claim in own_entries:
         if claim not in known:
@@ -173,26 +181,27 @@ def _bands(dataset):
     for k, (claim, rule) in enumerate(zip(dataset.claim.values, dataset.rule.values, strict=True)):
         laws = dataset.law.values[dataset.of.values == claim]
         if laws.size:
-            exact = (laws == "exact").all()
-            found[BANDS[2] if exact else BANDS[rule == "direction"]].append(k)
+            side = "one-sided" if rule == "direction" else "two-sided"
+            found[side, "exact" if (laws == "exact").all() else "interval"].append(k)
     return {band: rows for band, rows in found.items() if rows}
 
 
 def in_units(part):
     """Return (measured, low, high) of a component in units of its set.
 
-    Half the width of the set from its middle, so that the set is from -1 to 1; for a set without
-    an upper end multiples of its lower one, so that it starts at 1.
+    Half the width of the set from its middle, so that the set is from -1 to 1, or as it is if the
+    set is a single value; for a set without an upper end multiples of its lower one, so that it
+    starts at 1.
     """
     values = np.array([float(part[key]) for key in ("measured", "low", "high")])
     low, high = float(part.allowed_low), float(part.allowed_high)
     if np.isinf(high):
         return values / low
-    return (values - (low + high) / 2.0) / ((high - low) / 2.0)
+    return (values - (low + high) / 2.0) / ((high - low) / 2.0 or 1.0)
 
 
 def _band(axis, dataset, band, rows, size):
-    one_sided = band == BANDS[1]
+    one_sided = band[0] == "one-sided"
     ends = (-REACH, 2.0 * REACH) if one_sided else (-REACH, REACH)
     axis.axvspan(*((1.0, ends[1]) if one_sided else (-1.0, 1.0)), color="0.93", lw=0, zorder=0)
     for place, k in enumerate(rows):
@@ -207,8 +216,8 @@ def _band(axis, dataset, band, rows, size):
     axis.set_ylim(len(rows) - 0.4, -0.6)
     axis.set_xlim(*(1.03 * end for end in ends))
     unit = "its lower end" if one_sided else "half its width, from its middle"
-    sort = {BANDS[0]: "intervals", BANDS[1]: "intervals, one-sided sets", BANDS[2]: "exact values"}
-    axis.set_xlabel(f"{sort[band]}, in units of the set that the text allows ({unit})", fontsize=8)
+    what = f"{BANDS[band]}, in units of the set that the text allows ({unit})"
+    axis.set_xlabel(what, fontsize=8)
 
 
 def _style(word):

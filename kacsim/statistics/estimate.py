@@ -47,9 +47,9 @@ class Mean:
         return self.value - reach, self.value + reach
 
     def reach(self, alpha):
-        """Return half the width of the interval."""
-        if math.isinf(self.degrees):
-            return -float(special.ndtri(alpha / 2.0)) * self.standard_error
+        """Return half the width of the interval; nan if equal values left no spread to judge by."""
+        if not self.standard_error > 0.0:
+            return math.nan
         return -float(special.stdtrit(self.degrees, alpha / 2.0)) * self.standard_error
 
     @property

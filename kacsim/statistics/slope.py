@@ -14,8 +14,9 @@ def of_squares(n, squares, groups):
     """Fit E e**2 = exp(a + 2 b log n); return b with a standard error that needs no noise model.
 
     A generalized linear model with logarithmic link and constant relative spread: squares near
-    zero, which a fit of log |e| would take for large deviations, weigh little. The error is the
-    sandwich over groups, so that squares may depend on each other within a group.
+    zero, which a fit of log |e| would take for large deviations, weigh little. The error is that
+    of leaving out a group at a time (jackknife, one Newton step from the fit to all), so that
+    squares may depend on each other within a group; of few groups the sandwich is too small.
 
     Parameters
     ----------
@@ -25,7 +26,8 @@ def of_squares(n, squares, groups):
 
     Returns
     -------
-    (Mean, float), the slope b, and the root of exp(a): the error extrapolated to n = 1
+    (Mean, float), the slope b with a degree of freedom for all groups but one, and the root of
+    exp(a): the error extrapolated to n = 1
     """
     n, squares, groups = (np.asarray(x) for x in (n, squares, groups))
     x = np.log(n)
@@ -34,13 +36,22 @@ def of_squares(n, squares, groups):
     inverse = np.linalg.inv(design.T @ design)
     known = np.maximum(squares, 1e-6 * squares.mean())
     beta = _fitted(design, squares, inverse @ design.T @ np.log(known))
-    relative = squares * np.exp(-design @ beta) - 1.0
-    labels = np.unique(groups)
-    scores = np.stack([(relative[:, None] * design)[groups == g].sum(axis=0) for g in labels])
-    many = labels.size
-    covariance = inverse @ (scores.T @ scores) @ inverse * many / max(1, many - 1)
-    slope = Mean(float(beta[1]) / 2.0, math.sqrt(covariance[1, 1]) / 2.0)
+    many, shifts = np.unique(groups).size, _left_out(design, squares, groups, beta)[:, 1] / 2.0
+    error = math.sqrt((many - 1) / many * ((shifts - shifts.mean()) ** 2).sum())
+    slope = Mean(float(beta[1]) / 2.0, error, many - 1)
     return slope, float(math.exp((beta[0] - beta[1] * centre) / 2.0))
+
+
+def _left_out(design, squares, groups, beta):
+    """Return by how much the coefficients change without each group: one Newton step."""
+    ratio = squares * np.exp(-design @ beta)
+    shifts = []
+    for g in np.unique(groups):
+        own = groups == g
+        slopes = design[own].T @ (ratio[own] - 1.0)
+        curvature = (design[~own].T * ratio[~own]) @ design[~own]
+        shifts.append(-np.linalg.pinv(curvature, hermitian=True) @ slopes)
+    return np.array(shifts)
 
 
 def _fitted(design, squares, beta):

@@ -7,6 +7,8 @@ serves which row, with its reason, stands in reports/published/.
 import math
 from dataclasses import dataclass
 
+from scipy import special
+
 from kacsim.statistics import estimate
 
 FAMILY_ERROR = 0.01  # chance that one interval or more of a text misses its quantity
@@ -14,6 +16,7 @@ REPRODUCED, CORRECTED, CONTRADICTED = "reproduced", "corrected", "contradicted"
 UNDECIDED, NOT_TESTABLE = "undecided", "not testable"
 VERDICTS = (REPRODUCED, CORRECTED, CONTRADICTED, UNDECIDED, NOT_TESTABLE)
 RULES = ("digits", "words", "implied", "direction", "never", "always", "untestable")
+COUNTED = ("never", "always")  # rules of which violations are counted
 KINDS = {
     "printed": "printed numbers",
     "stated": "stated results",
@@ -25,7 +28,7 @@ TOLERANCE = 0.01  # of a value that a printed formula implies
 QUARTER = 0.25  # of the distance to the formula that it must be told from
 RARE = 1e-3  # rate of violations below which "never" stands without a proof
 NEAR = 0.1  # of a set's width: a quantity so near its edge may stay undecided
-POWER = 1.6449  # normal deviate that 95 of 100 draws stay below
+MISSED = 0.05  # share of runs that do not see the departure that is stated as seen
 
 
 @dataclass(frozen=True)
@@ -102,7 +105,9 @@ def allowed(entry, part):
         return entry["margin"], math.inf
     if rule == "implied":
         return around(part.printed, part.rival, part.corrected)
-    return 0.0, RARE
+    if rule in COUNTED:
+        return 0.0, RARE
+    raise ValueError(f"rule = {rule!r}: no rule that makes a set")
 
 
 def correction(part):
@@ -128,28 +133,43 @@ def judge(found, entry, alpha):
 
     Returns
     -------
-    verdict : *reproduced* if every part is, *contradicted* if one is, *corrected* if every part
-        that is contradicted lies in the right formula's set
+    verdict : *reproduced* if every part is, *contradicted* if one is, *corrected* if also every
+        part for which the right formula has a set lies in it, and every other part in what the
+        text allows (else its parts are contradicted too); *undecided* without a part
     parts : dicts with low, high (the interval), allowed, correction (sets; None without one),
         verdict, seen (how far beyond the set's edge a quantity must lie to be contradicted in 95
-        of 100 runs; 0 for exact values), pull (deviation from the value that stands, in standard
-        errors; nan without one), near (within a tenth of the set's width of its edge)
+        of 100 runs; for *never* and *always* the rate of violations of which as many runs meet
+        one; 0 for exact values), pull (deviation from the value that is known to be right, in
+        standard errors; nan without one), near (within a tenth of the set's width of its edge)
     """
     if entry["rule"] == "untestable":
         return NOT_TESTABLE, []
     parts = [_part(part, entry, alpha) for part in found.parts]
+    if not all(map(_rightly, parts)):
+        parts = [_uncorrected(part) for part in parts]
     words = {part["verdict"] for part in parts}
     for word in (CONTRADICTED, CORRECTED, UNDECIDED):
         if word in words:
             return word, parts
-    return REPRODUCED, parts
+    return REPRODUCED if parts else UNDECIDED, parts
+
+
+def _rightly(part):
+    """Tell whether a part is as the right formula has it, or as printed if that says nothing."""
+    return part["verdict"] == (CORRECTED if part["correction"] else REPRODUCED)
+
+
+def _uncorrected(part):
+    """Return a part without the verdict that the right formula stands, which fails elsewhere."""
+    word = part["verdict"]
+    return part | {"verdict": CONTRADICTED if word == CORRECTED else word}
 
 
 def _part(part, entry, alpha):
     measured = part.measured
     interval, wanted, right = measured.interval(alpha), allowed(entry, part), correction(part)
     word = _verdict(interval, wanted, right)
-    if entry["rule"] in ("never", "always") and measured.value > 0.0:
+    if entry["rule"] in COUNTED and measured.value > 0.0:
         word = CONTRADICTED
     width = wanted[1] - wanted[0]
     distance = min(abs(measured.value - edge) for edge in wanted)
@@ -159,10 +179,17 @@ def _part(part, entry, alpha):
         "allowed": wanted,
         "correction": right,
         "verdict": word,
-        "seen": measured.reach(alpha) + POWER * measured.standard_error,
+        "seen": _seen(measured, entry, alpha),
         "pull": _pull(part, entry, word),
         "near": distance <= NEAR * (width if math.isfinite(width) else wanted[0]),
     }
+
+
+def _seen(measured, entry, alpha):
+    """Return the smallest departure that all but `MISSED` of the runs see."""
+    if entry["rule"] in COUNTED and isinstance(measured, estimate.Share):
+        return -math.expm1(math.log(MISSED) / measured.n)  # (1 - rate)**n = MISSED
+    return measured.reach(alpha) - float(special.ndtri(MISSED)) * measured.standard_error
 
 
 def _verdict(interval, wanted, right):
@@ -184,8 +211,14 @@ def _exact(part):
 
 
 def _pull(part, entry, word):
-    """Return the deviation, in errors, from a known value that stands: normal if all is well."""
-    if _exact(part) or entry["rule"] != "implied":
+    """Return the deviation from the right value, in errors: standard normal if all is well.
+
+    Whether a part has a pull must not hang on how far it deviates: undecided ones have one. Where
+    the text is contradicted and no right value is known there is none.
+    """
+    known = part.printed if math.isnan(part.corrected) else part.corrected
+    unknown = word == CONTRADICTED and math.isnan(part.corrected)
+    error = part.measured.standard_error
+    if unknown or entry["rule"] != "implied" or not error > 0.0:
         return math.nan
-    stands = {REPRODUCED: part.printed, CORRECTED: part.corrected}.get(word, math.nan)
-    return (part.measured.value - stands) / part.measured.standard_error
+    return (part.measured.value - known) / error

@@ -4,6 +4,7 @@ One calibration without a z: the spread of 300 fitted slopes against their stand
 """
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -20,10 +21,11 @@ def test_slope_of_exact_powers():
 
 
 def test_slope_of_two_sizes_by_hand():
-    """Two sizes: the fitted squares are their means; three groups of one deviation at each size.
+    """Two sizes: the fitted squares are their means; three groups of two squares at each size.
 
-    The error is the root of G / (G - 1) sum r**2, r a group's sum of relative deviations over
-    twice the number of squares of a size times the span of log n.
+    Without a group of sum R, in units of the mean of its size, one step of Newton's lowers the
+    logarithm of that mean by (R - 2) / (6 - R); the slope is their difference over twice the span
+    of log n, and its error that of the jackknife.
     """
     n = np.repeat([10.0, 40.0], 6)
     squares = np.array([1.0, 2.0, 3.0, 1.5, 2.5, 2.0, 0.7, 0.3, 0.5, 0.4, 0.6, 0.5])
@@ -31,9 +33,11 @@ def test_slope_of_two_sizes_by_hand():
     fitted, _ = slope.of_squares(n, squares, groups)
     means, span = (squares[:6].mean(), squares[6:].mean()), math.log(4.0)
     assert fitted.value == pytest.approx(0.5 * math.log(means[1] / means[0]) / span)
-    relative = squares / np.repeat(means, 6) - 1.0
-    sums = relative.reshape(6, 2).sum(axis=1) / (2 * 6 * span)
-    assert fitted.standard_error == pytest.approx(math.sqrt(6 / 5 * (sums**2).sum()), rel=1e-6)
+    sums = (squares / np.repeat(means, 6)).reshape(6, 2).sum(axis=1)
+    steps = np.repeat([-1.0, 1.0], 3) * (sums - 2.0) / (6.0 - sums) / (2.0 * span)
+    error = math.sqrt(5 / 6 * ((steps - steps.mean()) ** 2).sum())
+    assert fitted.standard_error == pytest.approx(error, rel=1e-6)
+    assert fitted.degrees == 5
 
 
 def test_slope_and_its_error_are_calibrated(seed):
@@ -85,25 +89,50 @@ def powers(rng):
 @pytest.mark.parametrize("choice", range(3))
 @pytest.mark.parametrize("k", range(7), ids=[name for name, *_ in powers(np.random.default_rng(0))])
 def test_slope_is_that_of_statsmodels(k, choice, sm):
-    """The Gamma family's quasi-likelihood with logarithmic link, and its sandwich over groups.
+    """The Gamma family's quasi-likelihood with logarithmic link, and its fit without each group.
 
-    statsmodels' sandwich has no G / (G - 1), and its Gamma family no place for squares below
-    1e-20: they are given in units of their mean, which only the level feels.
+    statsmodels' Gamma family has no place for squares below 1e-20: they are given in units of
+    their mean, which only the level feels. One iteration of its Newton method is the step of the
+    jackknife.
     """
     _, n, squares, groups = list(powers(np.random.default_rng(choice)))[k]
     fitted, level = slope.of_squares(n, squares, groups)
     design, unit = sm.add_constant(np.log(n)), squares.mean()
     family = sm.families.Gamma(sm.families.links.Log())
     glm = sm.GLM(squares / unit, design, family=family).fit(tol=1e-14, maxiter=5000)
+    assert fitted.value == pytest.approx(0.5 * glm.params[1], rel=1e-6, abs=1e-9)
+    assert level == pytest.approx(math.sqrt(unit) * math.exp(0.5 * glm.params[0]), rel=1e-6)
+    start = {"start_params": glm.params, "method": "newton", "maxiter": 1, "disp": False}
+    without = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # one iteration does not converge
+        for g in np.unique(groups):
+            rest = groups != g
+            one = sm.GLM((squares / unit)[rest], design[rest], family=family).fit(**start)
+            without.append(0.5 * one.params[1])
+    many = len(without)
+    error = math.sqrt((many - 1) / many * ((without - np.mean(without)) ** 2).sum())
+    assert fitted.degrees == many - 1
+    if error > 1e6:  # without a group nothing fixes the slope
+        assert fitted.standard_error > 1e6
+    else:
+        assert fitted.standard_error == pytest.approx(error, rel=1e-4)
+
+
+@pytest.mark.parametrize("k", [0, 2])
+def test_the_error_is_near_that_of_the_sandwich(k, sm):
+    """Of groups of like size: the Gamma family's GEE, not corrected for their number."""
+    _, n, squares, groups = list(powers(np.random.default_rng(1)))[k]
+    family = sm.families.Gamma(sm.families.links.Log())
     gee = sm.GEE(
-        squares / unit, design, groups, family=family, cov_struct=sm.cov_struct.Independence()
-    ).fit(start_params=glm.params, maxiter=5000, ctol=1e-12)
-    many = np.unique(groups).size
-    error = 0.5 * gee.bse[1] * math.sqrt(many / (many - 1))
-    for theirs in (glm, gee):
-        assert fitted.value == pytest.approx(0.5 * theirs.params[1], rel=1e-6, abs=1e-9)
-        assert level == pytest.approx(math.sqrt(unit) * math.exp(0.5 * theirs.params[0]), rel=1e-6)
-    assert fitted.standard_error == pytest.approx(error, rel=1e-6)
+        squares / squares.mean(),
+        sm.add_constant(np.log(n)),
+        groups,
+        family=family,
+        cov_struct=sm.cov_struct.Independence(),
+    ).fit(maxiter=5000, ctol=1e-12)
+    ratio = slope.of_squares(n, squares, groups)[0].standard_error / (0.5 * gee.bse[1])
+    assert 0.9 < ratio < 2.0
 
 
 def test_another_model_has_another_slope(sm):

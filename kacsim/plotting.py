@@ -4,7 +4,7 @@ import math
 
 import matplotlib
 import numpy as np
-from matplotlib import ticker
+from matplotlib import patheffects, ticker
 from matplotlib.figure import Figure
 
 from kacsim.files import replace_file
@@ -15,6 +15,18 @@ exact = lazy("kacsim.kac.exact")
 # Okabe and Ito's colours, told apart by all common kinds of colour vision; markers differ too.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+# Nine others for more things than that palette has: Tol's muted ones, the lightest two darker.
+MUTED = (
+    "#332288",
+    "#56B4E9",
+    "#44AA99",
+    "#117733",
+    "#999933",
+    "#E69F00",
+    "#CC6677",
+    "#882255",
+    "#AA4499",
+)
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 9,
@@ -29,8 +41,19 @@ STYLE = {
     "svg.fonttype": "path",
     "pdf.fonttype": 3,
 }
+# A legend above a panel.
+TIGHT = {"frameon": False, "columnspacing": 0.9, "handletextpad": 0.4, "handlelength": 1.5}
 PANEL_WIDTH, PANEL_HEIGHT = 3.5, 2.7
 SINGLE_WIDTH = 5.0
+
+
+def distinct(count):
+    """Return so many colours, no two alike."""
+    if count <= len(MUTED):
+        return MUTED[:count]
+    return [
+        matplotlib.colors.to_hex(matplotlib.colormaps["turbo"](k)) for k in np.linspace(0, 1, count)
+    ]
 
 
 def panels(rows, columns, *, share_y=False, height=None, width=None, projection=None):
@@ -51,19 +74,24 @@ def stack(heights, *, width):
     return figure, list(figure.subplots(len(heights), squeeze=False, height_ratios=heights).flat)
 
 
-def points(axis, x, y, errors, k, label, *, line=True):
+def rows(counts, *, heights, width):
+    """Return (figure, a list of axes per row), rows of different numbers of panels."""
+    matplotlib.rcParams.update(STYLE)
+    figure = Figure(figsize=(width, sum(heights)), layout="constrained")
+    parts = figure.subfigures(len(counts), 1, height_ratios=heights)
+    return figure, [list(part.subplots(1, n)) for part, n in zip(parts, counts, strict=True)]
+
+
+def points(axis, x, y, errors, k, label, *, line=True, **style):
     """Draw points with error bars of one standard error in the k-th colour and symbol."""
     axis.errorbar(
         np.asarray(x),
         np.asarray(y),
         yerr=None if errors is None else np.asarray(errors),
-        color=COLOURS[k],
-        marker=MARKERS[k],
-        ms=4,
+        **{"color": COLOURS[k], "marker": MARKERS[k], "ms": 4, "label": label} | style,
         lw=0.8 if line else 0,
         elinewidth=0.8,
         capsize=1.5,
-        label=label,
     )
 
 
@@ -76,8 +104,8 @@ def bars(axis, edges, density, k, label, *, fill=True):
 
 
 def solution(axis, time, label="eq. (8)"):
-    """Draw the exact density at a time."""
-    grid = np.linspace(-5, 5, 401)
+    """Draw the exact density at a time, over all bins."""
+    grid = np.linspace(-8, 8, 641)
     axis.plot(grid, exact.density(grid, time), color="black", lw=1, label=label)
 
 
@@ -86,10 +114,20 @@ def floor(axis, value):
     axis.axhline(value, color="0.5", ls=":", lw=1.2, label="noise floor")
 
 
-def velocity_axis(axis):
-    """Name and bound the velocity axis."""
-    axis.set_xlim(-5, 5)
+def velocity_axis(axis, last_tick=4):
+    """Name and bound the velocity axis; it ends half a tick beyond its last one."""
+    axis.set_xticks(np.arange(-last_tick, last_tick + 1, 2))
+    axis.set_xlim(-last_tick - 1, last_tick + 1)
     axis.set_xlabel("velocity $v_1$")
+
+
+def half_turns(axis, last):
+    """Put ticks at whole multiples of pi on an axis of angles up to the last one."""
+    count = math.ceil(last / math.pi)
+    step = max(1, count // 6)
+    places = range(0, count + 1, step)
+    names = ["0" if k == 0 else f"{k if k > 1 else ''}$\\pi$" for k in places]
+    axis.set_xticks([k * math.pi for k in places], names)
 
 
 def density_axis(axis):
@@ -106,6 +144,20 @@ def legends_above(axes, share=0.4, ncols=1):
         axis.set_ylim(low, low * (high / low) ** room if is_log else low + (high - low) * room)
         tight = {"columnspacing": 0.6, "handletextpad": 0.1} if ncols > 1 else {}
         axis.legend(loc="upper center", frameon=False, ncols=ncols, **tight)
+
+
+def legend_on_top(axis, height=1.0, ncols=3, **keywords):
+    """Put the legend outside, above the axis, at a height in panels."""
+    place = {"loc": "lower center", "bbox_to_anchor": (0.5, height), "ncols": ncols}
+    axis.legend(**(place | TIGHT | keywords))
+
+
+def halo_text(axis, text, place, colour):
+    """Write just above a place, on a white halo that keeps it readable over lines."""
+    style = {"color": colour, "ha": "center", "va": "bottom", "zorder": 10}
+    halo = [patheffects.withStroke(linewidth=2.0, foreground="white")]
+    offset = {"xytext": (0, 1), "textcoords": "offset points"}
+    axis.annotate(text, place, path_effects=halo, **style, **offset)
 
 
 def plain_log(axis):

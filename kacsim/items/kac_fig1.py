@@ -1,8 +1,10 @@
 """Fig. 1 of the Kac paper: histograms of v_1 under Nanbu's algorithm, small and large step."""
 
 from kacsim.items import _kac
-from kacsim.items._lazy import plotting, store, verdict
+from kacsim.items._lazy import np, plotting, store, verdict
 from kacsim.kac.samplers import TITLES
+
+LAST_TICKS = (6, 4)  # of the published panels: small steps reach further out
 
 
 def _grid(settings):
@@ -58,18 +60,26 @@ def claims(dataset):
 
 
 def draw(dataset):
-    """Draw one panel per step: both readings and eq. (8)."""
-    figure, axes = plotting.panels(1, dataset.sizes["time_step"], share_y=True)
-    for axis, step in zip(axes, dataset.time_step.values, strict=True):
+    """Draw one column per step: both readings and eq. (8), as published and logarithmic."""
+    count = dataset.sizes["time_step"]
+    figure, axes = plotting.panels(2, count, share_y="row", height=2.5)
+    for column, step in enumerate(dataset.time_step.values):
         here = dataset.sel(time_step=step)
+        linear, logarithmic = axes[column], axes[count + column]
         for r, reading in enumerate(_kac.READINGS):
             mean = _kac.tvn_of(dataset, reading=reading, time_step=step)
-            label = f"{TITLES[reading]}\nTVN {plotting.with_error(mean)}"
+            label = f"{TITLES[reading]}: TVN {plotting.with_error(mean)}"
             density = here.density.sel(reading=reading)
-            plotting.bars(axis, here.edge, density, r, label, fill=r == 0)
-        plotting.solution(axis, dataset.attrs["settings"]["time"])
-        axis.set_title(f"$\\Delta t$ = {step:g}")
-        plotting.velocity_axis(axis)
-    plotting.legends_above(axes)
-    plotting.density_axis(axes[0])
+            for axis in (linear, logarithmic):
+                plotting.bars(axis, here.edge, density, r, label, fill=r == 0)
+        for axis in (linear, logarithmic):
+            plotting.solution(axis, dataset.attrs["settings"]["time"])
+            plotting.velocity_axis(axis, LAST_TICKS[min(column, 1)])
+        title = f"$\\Delta t$ = {step:g}"
+        plotting.legend_on_top(linear, ncols=1, title=title)
+        linear.set_yticks(np.arange(7) / 20)
+        logarithmic.set_yscale("log")
+        logarithmic.set_ylim(bottom=3e-5)
+    for axis in axes[::count]:
+        plotting.density_axis(axis)
     return figure

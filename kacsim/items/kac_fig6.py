@@ -6,6 +6,14 @@ from kacsim.items import _corners
 from kacsim.items._lazy import np, plotting, store, verdict, xr
 from kacsim.kac.constants import MEAN_ENERGY
 
+START_SHARE = 0.5  # of the energy, that one particle has where a sample path starts
+
+
+def problems(settings):
+    """Yield (key, sentence) of a tolerance that the run need not reach."""
+    if settings["drawn_tolerance"] < settings["tolerance"]:
+        yield "drawn_tolerance", f"must be at least tolerance = {settings['tolerance']}"
+
 
 def cases(settings):
     """Return recorded runs of the corner points."""
@@ -23,8 +31,8 @@ def reduce(samples, settings):
     start = math.sqrt(2.0 * MEAN_ENERGY * settings["n_particles"])  # of two corners
     rounding = settings["rounding"]
     return xr.Dataset(
-        {
-            "path": described(corner, ("time", "corner_index"), "v_1 of every corner"),
+        _sandwich(sample, settings)
+        | {
             "upper": described(corner.max(axis=1), path, "largest v_1 of the corners"),
             "lower": described(corner.min(axis=1), path, "smallest v_1 of the corners"),
             "first_diameter": described(
@@ -47,6 +55,36 @@ def reduce(samples, settings):
         },
         coords={"time": ("time", np.arange(corner.shape[0]) - (corner.shape[0] - 1))},
     )
+
+
+def _sandwich(sample, settings):
+    """Return the last steps of the first run as Fig. 6 depicts them, with -T, -a and -b.
+
+    T is the smallest power of two from which the bounds meet by time 0 (the run's own length if
+    none does), -b the time at which they meet, -a that at which the sample paths between them do.
+    """
+    n, tolerance = settings["n_particles"], settings["drawn_tolerance"]
+    radius = math.sqrt(MEAN_ENERGY * n)
+    starts = START_SHARE * np.eye(n) + (1.0 - START_SHARE) / n
+    longest = sample.sizes["step"]
+    powers = [2**k for k in range(longest.bit_length()) if 2**k < longest]
+    for n_steps in (*powers, longest):
+        corners = radius * np.sqrt(_corners.walk(np.eye(n), sample, n_steps))
+        coupled = _corners.diameters(corners) < tolerance
+        if coupled[-1]:
+            break
+    paths = radius * np.sqrt(_corners.walk(starts, sample, n_steps))
+    met = _corners.diameters(paths) < tolerance
+    described, time = store.described, ("drawn_time",)
+    return {
+        "drawn_upper": described(corners[:, :, 0].max(axis=1), time, "largest v_1 of the corners"),
+        "drawn_lower": described(corners[:, :, 0].min(axis=1), time, "smallest v_1 of the corners"),
+        "sample_path": described(paths[:, :, 0], (*time, "start"), "v_1 of sample paths"),
+        "drawn_time": described(np.arange(n_steps + 1) - n_steps, time, "steps before time 0"),
+        "n_back": described(n_steps, (), "T, where the bounds start", "steps"),
+        "n_met": described(n_steps - met.argmax(), (), "a, where the sample paths meet", "steps"),
+        "n_coupled": described(n_steps - coupled.argmax(), (), "b, where the bounds meet", "steps"),
+    }
 
 
 def claims(dataset):
@@ -78,26 +116,40 @@ def claims(dataset):
 
 
 def draw(dataset):
-    """Draw the envelope of one coordinate from time -n to 0, linear and in its late stage."""
-    figure, axes = plotting.panels(1, 2)
-    time = dataset.time.values
-    for k in range(dataset.sizes["corner_index"]):
-        axes[0].step(time, dataset.path.values[:, k], where="post", color="0.7", lw=0.6)
-    axes[0].step(time, dataset.upper, where="post", color=plotting.COLOURS[1], label="upper bound")
-    style = {"where": "post", "color": plotting.COLOURS[0], "ls": "--", "label": "lower bound"}
-    axes[0].step(time, dataset.lower, **style)
-    axes[0].set_ylabel("$v_1$ of the corner points")
-    axes[0].legend()
+    """Draw the bounds of one coordinate as Fig. 6 does, and the distances of the whole run."""
+    figure, axes = plotting.panels(1, 2, height=3.1)
+    _draw_sandwich(axes[0], dataset)
+    time, right = dataset.time.values, axes[1]
     gap = np.where(dataset.upper > dataset.lower, dataset.upper - dataset.lower, np.nan)
-    axes[1].step(time, gap, where="post", color="0.6", lw=0.8, label="upper $-$ lower bound")
-    axes[1].step(
-        time, dataset.first_diameter, where="post", color=plotting.COLOURS[2], label="distance $D$"
-    )
+    right.step(time, gap, where="post", color="0.6", lw=0.8, label="upper $-$ lower bound")
+    style = {"where": "post", "color": plotting.COLOURS[2]}
+    right.step(time, dataset.first_diameter, label="distance $D$", **style)
     tolerance = dataset.attrs["settings"]["tolerance"]
-    axes[1].axhline(tolerance, color="black", ls=":", lw=1, label="tolerance $\\varepsilon$")
-    axes[1].set_yscale("log")
-    axes[1].set_ylabel("distance")
-    axes[1].legend()
+    right.axhline(tolerance, color="black", ls=":", lw=1, label="tolerance $\\varepsilon$")
+    right.set_yscale("log")
+    right.set_ylabel("distance")
     for axis in axes:
-        axis.set_xlabel("step, from the coupling time to 0")
+        axis.set_xlabel("time in steps")
+    for axis, height in zip(axes, (1.07, 1.0), strict=True):
+        plotting.legend_on_top(axis, height)
     return figure
+
+
+def _draw_sandwich(axis, dataset):
+    """Draw bounds and sample paths from -T to 0, and mark -T, -a and -b."""
+    time = dataset.drawn_time.values
+    for k, path in enumerate(dataset.sample_path.values.T):
+        label = None if k else "sample paths"
+        axis.step(time, path, where="post", color="0.65", lw=0.6, label=label)
+    style = {"where": "post", "lw": 1.2}
+    axis.step(time, dataset.drawn_upper, color=plotting.COLOURS[1], label="upper bound", **style)
+    axis.step(
+        time, dataset.drawn_lower, ls="--", color=plotting.COLOURS[0], label="lower bound", **style
+    )
+    marks = (("n_back", "T", "center"), ("n_met", "a", "right"), ("n_coupled", "b", "left"))
+    for name, letter, side in marks:
+        place = -int(dataset[name])
+        axis.axvline(place, color="black", ls=":", lw=0.8, zorder=0)
+        where = {"transform": axis.get_xaxis_transform(), "ha": side, "va": "bottom"}
+        axis.text(place, 1.01, f"$-{letter}$", **where)
+    axis.set_ylabel("velocity $v_1$")

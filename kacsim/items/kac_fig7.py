@@ -1,7 +1,11 @@
 """Fig. 7 of the Kac paper: all points of the octant map to one arc, from a real run."""
 
 from kacsim.items import _corners
-from kacsim.items._lazy import np, plotting, store, xr
+from kacsim.items._lazy import np, store, xr
+
+PAIR = (1, 2)  # of the text
+ORDER = (1, 2, 3)  # of the particles along x, y, z
+POINT, IMAGE = ("s", 1, 60), ("o", 2, 60)  # marker, place among the colours, size
 
 
 def cases(settings):
@@ -10,47 +14,38 @@ def cases(settings):
 
 
 def reduce(samples, settings):
-    """Return some points of the octant before and after the first step of the first run."""
+    """Return some points of the octant, and its corners, before and after a step of the run."""
     sample = samples[_corners.case(settings).id]
-    p, q = int(sample["first"][0]), int(sample["second"][0])
-    part = float(sample["squared_sine"][0])
-    corner = sample["corner"].values
-    radius = float(np.linalg.norm(corner[0, 0]))
-    before = _spread_points(radius)
-    after = before.copy()
-    pair = before[:, p] ** 2 + before[:, q] ** 2
-    after[:, p], after[:, q] = np.sqrt(part * pair), np.sqrt((1.0 - part) * pair)
+    angles, pairs = _corners.two_steps(sample)
+    radius = float(np.linalg.norm(sample["corner"].values[0, 0]))
+    before = _corners.four_points(radius, angles[0])
     described, dims = store.described, ("point", "particle")
+    after = _corners.rotate(before, PAIR, angles[0])
+    corner = _corners.rotate(radius * np.eye(3), PAIR, angles[0])
     return xr.Dataset(
         {
             "before": described(before, dims, "points of the octant before the step"),
             "after": described(after, dims, "the same points after the step"),
-            "corner": described(corner[1], ("corner_index", "particle"), "corners after the step"),
+            "corner": described(corner, ("corner_index", "particle"), "corners after the step"),
             "radius": described(radius, (), "radius of the sphere"),
-            "pair": described([p + 1, q + 1], ("two",), "labels of the pair"),
-            "angle": described(np.degrees(np.arcsin(np.sqrt(part))), (), "angle", "degree"),
+            "pair": described(PAIR, ("two",), "labels of the pair"),
+            "run_pair": described(pairs[0], ("two",), "labels of the pair in the run"),
+            "angle": described(np.degrees(angles[0]), (), "angle", "degree"),
         }
     )
 
 
-def _spread_points(radius):
-    """Return four fixed points spread over the octant, float64[4, 3]."""
-    weights = np.array([[6, 2, 2], [2, 6, 2], [2, 2, 6], [1, 5, 4]], dtype=float)
-    return radius * np.sqrt(weights / weights.sum(axis=1, keepdims=True))
-
-
 def draw(dataset):
-    """Draw the points, where they go, and the arc that holds every image."""
+    """Draw the points, where they go, the angle, and the arc that holds every image."""
     figure, (axis,) = _corners.sphere_axes(1)
-    _corners.octant(axis, float(dataset.radius))
-    _corners.draw_image(axis, dataset.corner.values, plotting.COLOURS[0], "image of the octant")
+    radius, angle = float(dataset.radius), float(np.radians(dataset.angle))
+    _corners.octant(axis, radius)
+    _corners.draw_angle(axis, radius, angle, "$\\theta$", 0)
+    _corners.draw_arc(axis, dataset.corner.values, ORDER, 0, "image of the octant")
     before, after = dataset.before.values, dataset.after.values
-    for ends in np.stack([before, after], axis=1):
-        axis.plot(*ends.T, color="0.4", ls=":", lw=1)
-    style = {"depthshade": False, "zorder": 5}
-    axis.scatter(*before.T, color=plotting.COLOURS[1], marker="s", s=24, label="points", **style)
-    axis.scatter(*after.T, color=plotting.COLOURS[2], marker="^", s=30, label="images", **style)
-    i, j = dataset.pair.values
-    axis.set_title(f"pair ({i}, {j}), $\\theta$ = {float(dataset.angle):.0f}°")
+    _corners.draw_step(axis, before, after, ORDER)
+    _corners.draw_points(axis, before, ORDER, POINT, "points")
+    _corners.draw_points(axis, after, ORDER, IMAGE, "their images")
+    axis.set_title(f"pair {PAIR}, $\\theta$ = {float(dataset.angle):.0f}°")
     figure.legend(loc="outside lower center", ncols=3, frameon=False)
     return figure

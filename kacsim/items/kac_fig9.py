@@ -34,10 +34,17 @@ def reduce(samples, settings):
             "moment_exact": "exact mean of v_1**4 at this N and energy",
         }.items()
     }
-    densities = [row["density"] for row in table]
     n_draws = _kac.n_draws_of(cases(settings)[0])
     variables |= {
-        "density": described(densities, ("energy", "bin"), "histogram of all draws"),
+        name: described([row[name] for row in table], ("energy", "bin"), text)
+        for name, text in {
+            "density": "histogram of all draws",
+            "finite_density": "exact law of N particles at this energy, mean over a bin",
+        }.items()
+    }
+    excess, wide = _excess(samples[cases(settings)[0].id], settings)
+    variables |= excess
+    variables |= {
         "floor": described(histogram.noise_floor(expected, n_draws), (), "TVN of exact draws"),
         "floor_spread": described(
             histogram.noise_spread(expected, n_draws), (), "standard deviation of that TVN"
@@ -48,19 +55,43 @@ def reduce(samples, settings):
         "coupling_time": sample["coupling_time"],
     }
     variables |= _coupling(sample, n_draws)
-    return xr.Dataset(variables, coords={"energy": list(ENERGIES), "edge": ("edge", edges)})
+    coords = {"energy": list(ENERGIES), "edge": ("edge", edges), "wide_edge": ("wide_edge", wide)}
+    return xr.Dataset(variables, coords=coords)
+
+
+def _excess(sample, settings):
+    """Return (what the draws and the law of N particles have over eq. (9), edges of wide bins)."""
+    width, n = max(_kac.widths(settings)), settings["n_particles"]
+    counts, edges = histogram.coarsen(sample["counts"].values.sum(axis=0), width)
+    limit, _ = _kac.target(settings, width, math.inf)
+    law = histogram.probabilities(lambda v: exact.equilibrium_cumulative(v, n), edges)
+    n_draws = counts.sum()
+    found = {
+        "excess": (counts / n_draws - limit, "density of all draws less eq. (9)"),
+        "excess_error": (np.sqrt(law * (1.0 - law) / n_draws), "its standard deviation"),
+        "finite_excess": (law - limit, "density of the exact N-particle law less eq. (9)"),
+    }
+    variables = {
+        name: store.described(part[1:-1] / width, ("wide_bin",), text)
+        for name, (part, text) in found.items()
+    }
+    return variables, edges
 
 
 def _energy(sample, case, expected, width):
     counts, edges = histogram.coarsen(sample["counts"].values.sum(axis=0), width)
     moment = _kac.fourth_moment_of(sample, case)
     p = case.parameters
+    law = histogram.probabilities(
+        lambda v: exact.equilibrium_cumulative(v, p["n_particles"], p["energy"]), edges
+    )
     return {
         "tvn": float(histogram.total_variation(counts, expected)),
         "moment": moment.value,
         "moment_error": moment.standard_error,
         "moment_exact": exact.equilibrium_fourth_moment(p["n_particles"], p["energy"]),
         "density": counts[1:-1] / counts.sum() / np.diff(edges),
+        "finite_density": law[1:-1] / np.diff(edges),
     }
 
 
@@ -139,32 +170,52 @@ def _energy_claim(dataset):
 
 
 def draw(dataset):
-    """Draw the histogram with eq. (9), and the coupling times with the published range."""
-    figure, axes = plotting.panels(1, 2)
-    label = f"TVN {float(dataset.tvn[0]):.4f}, floor {float(dataset.floor):.4f}"
-    plotting.bars(axes[0], dataset.edge, dataset.density.sel(energy="three_halves"), 0, label)
-    plotting.solution(axes[0], math.inf, "eq. (9)")
-    plotting.velocity_axis(axes[0])
-    plotting.density_axis(axes[0])
-    plotting.legends_above(axes[:1], share=0.25)
-    times = dataset.coupling_time.values
-    axes[1].hist(
-        times, bins=60, density=True, color=plotting.COLOURS[0], alpha=0.6, label="this run"
-    )
-    published = dataset.attrs["published"]
-    axes[1].axvline(
-        published["kac_fig9_coupling_mean"], color=plotting.COLOURS[1], label="published mean"
-    )
-    axes[1].axvspan(
-        published["kac_fig9_coupling_min"],
-        published["kac_fig9_coupling_max"],
-        color=plotting.COLOURS[1],
-        alpha=0.15,
-        label="published range",
-    )
-    axes[1].set_xlabel("coupling time in steps")
-    axes[1].set_ylabel("density")
-    low, high = axes[1].get_ylim()
-    axes[1].set_ylim(low, 1.35 * high)
-    axes[1].legend(loc="upper center", ncols=2)
+    """Draw the histogram, what it has over eq. (9), the coupling times, and energy N."""
+    figure, axes = plotting.panels(2, 2)
+    names = [f"draws, $E$ = {energy}" for energy in ("$3N/2$", "$N$")]
+    for k, (axis, energy) in enumerate(zip(axes[::3], ENERGIES, strict=True)):
+        here = dataset.sel(energy=energy)
+        plotting.bars(axis, here.edge, here.density, k, names[k])
+        plotting.solution(axis, math.inf, "eq. (9)")
+        middle = 0.5 * (here.edge.values[1:] + here.edge.values[:-1])
+        axis.plot(middle, here.finite_density, **_finite(dataset))
+        plotting.density_axis(axis)
+    _draw_excess(axes[2], dataset, names[0])
+    for axis in (axes[0], axes[2], axes[3]):
+        plotting.velocity_axis(axis)
+    _draw_times(axes[1], dataset)
+    for axis in axes:
+        plotting.legend_on_top(axis)
     return figure
+
+
+def _finite(dataset):
+    """Return the style and the label of the exact law of N particles."""
+    n = dataset.attrs["settings"]["n_particles"]
+    return {"color": plotting.COLOURS[2], "ls": "--", "lw": 1.2, "label": f"exact, $N$ = {n}"}
+
+
+def _draw_excess(axis, dataset, label):
+    """Draw what the draws and the law of N particles have over eq. (9), bin by bin."""
+    edge = dataset.wide_edge.values
+    middle = 0.5 * (edge[1:] + edge[:-1])
+    plotting.points(axis, middle, dataset.excess, dataset.excess_error, 0, label, line=False)
+    axis.axhline(0.0, color="black", lw=1, label="eq. (9)")
+    axis.stairs(dataset.finite_excess, edge, baseline=None, **_finite(dataset))
+    axis.set_ylabel("density $-$ eq. (9)")
+
+
+def _draw_times(axis, dataset):
+    """Draw the histogram of coupling times with the published mean and range."""
+    style = {"bins": 60, "density": True, "color": plotting.COLOURS[0], "alpha": 0.6}
+    axis.hist(dataset.coupling_time.values, label="this run", **style)
+    published = {
+        key: dataset.attrs["published"][f"kac_fig9_coupling_{key}"]
+        for key in ("mean", "min", "max")
+    }
+    axis.axvline(published["mean"], color=plotting.COLOURS[1], label="published mean")
+    band = {"color": "#f8e3d5", "lw": 0, "zorder": 0, "label": "published range"}
+    axis.axvspan(published["min"], published["max"], **band)
+    axis.set_xlim(left=0.0)
+    axis.set_xlabel("coupling time in steps")
+    axis.set_ylabel("density")

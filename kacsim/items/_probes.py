@@ -114,13 +114,19 @@ def _spread_out(part, shape, places):
 
 
 def draw_sizes(axis, dataset, x, variable, error=None, factor=1.0):
-    """Draw a variable at all numbers of realizations, with bars or as plain symbols."""
-    for k in range(dataset.sizes["size"]):
+    """Draw a variable at all numbers of realizations, with bars or as plain symbols.
+
+    The larger run is drawn first and hollow, so that the published size stays visible on it.
+    """
+    for k in reversed(range(dataset.sizes["size"])):
         here = dataset.isel(size=k)
         seen = np.isfinite(here[variable].values)
         label = f"{int(here.n_draws):,} realizations"
         bars = None if error is None else (here[error] * factor)[seen]
-        plotting.points(axis, x[seen], (here[variable] * factor)[seen], bars, k, label, line=False)
+        style = {"ms": 6.0, "mfc": "none"} if k else {}
+        plotting.points(
+            axis, x[seen], (here[variable] * factor)[seen], bars, k, label, line=False, **style
+        )
 
 
 def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):

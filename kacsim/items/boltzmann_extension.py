@@ -7,6 +7,14 @@ from kacsim.items import _trap
 from kacsim.items._lazy import np, plotting, store, xr
 
 RADIUS_KEYS = {"trap": "density_radius", "trap_fraction": "fraction_radius"}
+PANELS = {
+    "density": "$f$ / $f$ of the breathing state",
+    "fraction": "fraction beyond $r_0$",
+    "recursion": "mean recursion",
+    "effective_share": "effective share",
+    "largest_share": "largest realization's share",
+    "coverage": "coverage of $\\pm\\sigma$",
+}
 
 
 def problems(settings):
@@ -110,31 +118,45 @@ def reduce(samples, settings):
 
 
 def draw(dataset):
-    """Draw values and recursion, and the three measures of reliability, against time."""
-    figure, axes = plotting.panels(2, 2)
+    """Draw values, recursion and the three measures of reliability against time, one an axis."""
+    figure, axes = plotting.panels(3, 2, height=2.4)
+    panel = dict(zip(PANELS, axes, strict=True))
     turn = dataset.turn.values
-    panels = (("value", "error"), ("recursion", None), ("effective_share", None))
-    for k in range(dataset.sizes["probe"]):
+    count = dataset.sizes["probe"]
+    for k in range(count):
         here = dataset.isel(probe=k)
-        what = "$f$" if here.sampler == "trap" else "fraction"
-        label = f"{what}, $r$ = {float(here.radius):g}"
-        for axis, (name, error) in zip(axes, panels, strict=False):
-            bars = None if error is None else here[error]
-            plotting.points(axis, turn, here[name], bars, k, label)
-        style = {"color": plotting.COLOURS[k], "marker": plotting.MARKERS[k], "ms": 4, "lw": 0.8}
-        axes[2].plot(turn, here.largest_share, ls=":", mfc="white", **style)
-        plotting.points(axes[3], turn, here.coverage, dataset.coverage_error, k, label, line=False)
-    axes[3].plot(turn, dataset.nominal, color="0.4", lw=1, label="if the bars are right")
-    names = ("value", "mean recursion", "effective share (solid),\nlargest share (dotted)")
-    for axis, name in zip(axes, (*names, "coverage of $\\pm\\sigma$"), strict=True):
-        axis.set_ylabel(name)
-        axis.set_xlabel("$\\omega t/2\\pi$")
-    axes[3].set_ylim(0, 1)
-    for axis in axes[:3]:
-        axis.set_yscale("log")
-    limit = dataset.attrs["settings"]["largest_share"]
-    axes[2].axhline(limit, color="0.4", lw=1, label="limit of the largest share")
-    axes[2].legend(handles=axes[2].lines[-1:], loc="lower right")
-    axes[1].legend()
-    axes[3].legend(handles=axes[3].lines[-1:], loc="lower left")
+        density = here.sampler == "trap"
+        what, where = ("$f$", "r") if density else ("fraction", "r_0")
+        label = f"{what}, ${where}$ = {float(here.radius):g}"
+        _value(panel["density" if density else "fraction"], turn, here, k, label)
+        for name in ("recursion", "effective_share", "largest_share"):
+            plotting.points(panel[name], turn, here[name], None, k, label)
+        beside = turn + 0.03 * (k - 0.5 * (count - 1))  # so that no bar hides another
+        bars = dataset.coverage_error
+        plotting.points(panel["coverage"], beside, here.coverage, bars, k, label, line=False)
+    for name, text in PANELS.items():
+        panel[name].set_ylabel(text)
+        panel[name].set_xlabel("$\\omega t/(2\\pi)$")
+    for name in ("fraction", "recursion", "effective_share", "largest_share"):
+        panel[name].set_yscale("log")
+    panel["density"].set_ylim(0.0, 1.5)
+    panel["coverage"].set_ylim(0.0, 1.05)
+    limit = np.full(turn.size, dataset.attrs["settings"]["largest_share"])
+    for name, level, label, place in (
+        ("density", np.ones(turn.size), "breathing state", "upper left"),
+        ("largest_share", limit, "limit", "upper left"),
+        ("coverage", dataset.nominal, "if the bars are right", "lower left"),
+    ):
+        (line,) = panel[name].plot(turn, level, color="0.4", lw=1, label=label)
+        panel[name].legend(handles=[line], loc=place, frameon=False)
+    handles, labels = panel["recursion"].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, frameon=False)
     return figure
+
+
+def _value(axis, turn, here, k, label):
+    """Draw estimates with bars, hollow from where one realization outweighs the limit."""
+    kept = int(here.n_believed)
+    for part, style in ((slice(0, kept), {}), (slice(kept, None), {"mfc": "white"})):
+        values = here.isel(turn=part)
+        plotting.points(axis, turn[part], values.value, values.error, k, label, line=False, **style)

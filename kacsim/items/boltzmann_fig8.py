@@ -3,6 +3,7 @@
 from kacsim.items._lazy import np, plotting, store, trap, xr
 
 N_TIMES, N_FINE = 181, 161
+LEVELS = (1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.0)  # a factor of 2 or 100 apart, as in the text
 
 
 def cases(settings):
@@ -37,39 +38,49 @@ def reduce(samples, settings):
 
 
 def draw(dataset):
-    """Draw the density as a map with level lines, and the energies."""
-    figure, axes = plotting.panels(1, 2)
-    levels = np.log10(dataset.density.values)
-    image = axes[0].pcolormesh(
-        dataset.turn,
-        dataset.radius,
-        levels,
-        cmap="cividis",
-        vmin=-8,
-        shading="auto",
-        rasterized=True,
-    )
-    axes[0].contour(
-        dataset.turn,
-        dataset.radius,
-        levels,
-        levels=[-8, -6, -4, -2, -0.3],
-        colors="white",
-        linewidths=0.7,
-        linestyles="--",
-    )
-    bar = figure.colorbar(image, ax=axes[0])
-    bar.set_label("log$_{10}$ of the density")
-    axes[0].set_ylabel("$r_x\\,\\omega/c_{q,eq}$")
+    """Draw the density as a map with labelled level lines, and the energies."""
+    figure, axes = plotting.panels(1, 2, height=3.1)
+    _draw_density(figure, axes[0], dataset)
+    turn = dataset.turn.values
     for k, (name, factor) in enumerate((("potential", 1), ("thermal", 1), ("flow", 10))):
         label = f"{name} energy" + (" × 10" if factor > 1 else "")
         dash = ("-", "--", "-.")[k]
-        axes[1].plot(
-            dataset.turn, factor * dataset[name], dash, color=plotting.COLOURS[k], label=label
-        )
+        axes[1].plot(turn, factor * dataset[name], dash, color=plotting.COLOURS[k], label=label)
     axes[1].set_ylabel("share of the total energy")
-    axes[1].set_ylim(0, 1)
-    axes[1].legend()
+    axes[1].set_ylim(0.0, 1.0)
+    axes[1].set_yticks(np.arange(6) / 5)
+    axes[1].legend(loc="upper center", frameon=False)
     for axis in axes:
-        axis.set_xlabel("$\\omega t / 2\\pi$")
+        axis.set_xlim(0.0, 1.0)
+        axis.set_xticks(np.arange(5) / 4)
+        axis.set_xlabel("$\\omega t/(2\\pi)$")
     return figure
+
+
+def _draw_density(figure, axis, dataset):
+    """Draw the density along an axis against time, with its levels named on their lines."""
+    logarithm = np.log10(dataset.density.values)
+    place = dataset.turn, dataset.radius, logarithm
+    style = {"cmap": "cividis", "vmin": -8, "vmax": 0, "shading": "auto", "rasterized": True}
+    image = axis.pcolormesh(*place, **style)
+    colours = ["black" if level > 0.1 else "white" for level in LEVELS]  # on light or dark
+    lines = axis.contour(
+        *place, levels=np.log10(LEVELS), colors=colours, linewidths=0.7, linestyles="--"
+    )
+    names = {np.log10(x): plotting.power_of_ten(x) if x < 0.1 else f"{x:g}" for x in LEVELS}
+    axis.clabel(lines, fmt=names, fontsize=6.5, manual=_label_places(dataset))
+    bar = figure.colorbar(image, ax=axis, extend="both", ticks=np.arange(-8, 1, 2))
+    bar.ax.set_yticklabels([f"$10^{{{k}}}$" for k in range(-8, 1, 2)])
+    bar.set_label("$\\eta(r_x)\\,(\\sqrt{2\\pi}\\,c_{q,eq}/\\omega)^3/n$")
+    axis.set_yticks(np.arange(-4, 5, 2))
+    axis.set_ylabel("$r_x\\,\\omega/c_{q,eq}$")
+
+
+def _label_places(dataset):
+    """Return (turn, radius) of each level's label: where the cloud is smallest, and all are met."""
+    outward = dataset.isel(radius=dataset.radius >= 0.0)
+    k = int(outward.density.values[0].argmax())
+    column = outward.density.values[:, k]
+    levels = [level for level in LEVELS if column[-1] < level < column[0]]
+    radii = np.interp(-np.log(levels), -np.log(column), outward.radius.values)
+    return [(float(dataset.turn[k]), radius) for radius in radii]

@@ -3,11 +3,13 @@
 from kacsim.items import _probes, _trap
 from kacsim.items._lazy import np, plotting, store, trap
 
-N_FINE = 301
+N_FINE = 601
 LINES = {
-    "breathing_curve": {"color": "black", "label": "breathing state"},
-    "ballistic_curve": {"color": "0.5", "ls": "--", "label": "no collisions"},
+    "breathing_curve": {"color": "black", "ls": "--", "label": "breathing state"},
+    "ballistic_curve": {"color": "0.4", "ls": ":", "label": "no collisions"},
 }
+SCALE = 1000.0
+ZOOM = (2.4, 3.6)  # omega t around 3, where the text has points of its own
 
 
 problems = _trap.problems
@@ -55,24 +57,46 @@ def reduce(samples, settings):
 
 
 def draw(dataset):
-    """Draw value, relative standard deviation and recursion, one column per place."""
+    """Draw value, its part around omega t = 3, relative error and recursion; a column per place."""
     count = dataset.sizes["radius"]
-    figure, axes = plotting.panels(3, count, height=2.1)
+    figure, axes = plotting.panels(4, count, height=2.0)
+    angle, fine = 2.0 * np.pi * dataset.turn.values, 2.0 * np.pi * dataset.fine_turn.values
     for k, radius in enumerate(dataset.radius.values):
         here = dataset.sel(radius=radius)
-        turn, column = here.turn.values, axes[k::count]
-        _probes.draw_sizes(column[0], here, turn, "value", "error")
-        for name, style in LINES.items():
-            column[0].plot(here.fine_turn, here[name], lw=1, **style)
+        column = axes[k::count]
+        for axis in column[:2]:
+            _probes.draw_sizes(axis, here, angle, "value", "error", SCALE)
+            for name, style in LINES.items():
+                axis.plot(fine, SCALE * here[name], lw=1, zorder=1, **style)
+            axis.set_ylabel(f"{plotting.power_of_ten(SCALE)} $f\\,c_{{q,eq}}^6/(n\\omega^3)$")
+        column[0].axvspan(*ZOOM, color="0.9", lw=0, zorder=0)
+        column[1].set_xlim(*ZOOM)
+        if np.isfinite(top := _zoom_top(here)):
+            column[1].set_ylim(-0.05 * top, top)
         relative = here.assign(relative=here.error / here.value)
-        _probes.draw_sizes(column[1], relative, turn, "relative")
-        _probes.draw_sizes(column[2], here, turn, "recursion")
-        for axis in column[1:]:
+        _probes.draw_sizes(column[2], relative, angle, "relative")
+        _probes.draw_sizes(column[3], here, angle, "recursion")
+        for axis in (column[0], *column[2:]):
+            plotting.half_turns(axis, angle[-1])
+        for axis in column[2:]:
             axis.set_yscale("log")
         column[0].set_title(f"$r$ = {radius:g} $c_{{q,eq}}/\\omega$")
-        column[0].set_ylabel("$f\\,c_{q,eq}^6/(n\\omega^3)$")
-        column[1].set_ylabel("standard error / value")
-        column[2].set_ylabel("mean recursion")
-        column[2].set_xlabel("$\\omega t/2\\pi$")
-    plotting.legends_above(axes[:1])
+        column[2].set_ylabel("standard error / value")
+        column[3].set_ylabel("mean recursion")
+        for axis in column:
+            axis.set_xlabel("$\\omega t$")
+    for row in (axes[2 * count : 3 * count], axes[3 * count :]):
+        limits = [axis.get_ylim() for axis in row]
+        for axis in row:
+            axis.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, frameon=False)
     return figure
+
+
+def _zoom_top(here):
+    """Return the upper end of the enlarged panel, above all points and free flight, or nan."""
+    angle, fine = 2.0 * np.pi * here.turn, 2.0 * np.pi * here.fine_turn
+    values = here.value.where((angle > ZOOM[0]) & (angle < ZOOM[1]))
+    curve = here.ballistic_curve.where((fine > ZOOM[0]) & (fine < ZOOM[1]))
+    return 1.3 * SCALE * float(np.fmax(values.max(), curve.max()))

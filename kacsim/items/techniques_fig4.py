@@ -3,10 +3,19 @@
 import math
 
 from kacsim.items import _spheres
-from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.items._lazy import (
+    estimate,
+    integration,
+    np,
+    plotting,
+    store,
+    techniques_exact,
+    verdict,
+    xr,
+)
 from kacsim.items._spheres import MANY, PSEUDORANDOM
 
-LABELS = ("Monte Carlo, good", "numbers run out", "congruential")
+LABELS = ("Monte Carlo, good", "Monte Carlo, exhausted", "Monte Carlo, congruential")
 MANY_LABELS = ("lattice", "Monte Carlo", "Sobol, scrambled")
 
 
@@ -57,6 +66,11 @@ def reduce(samples, settings):
         "shown_slope_error": described([p.standard_error for p in powers], ("line",), "its error"),
         "slope": described(slopes[0], ("way", "dimension"), "power of N"),
         "slope_error": described(slopes[1], ("way", "dimension"), "standard error"),
+        "runs_out": described(
+            [math.inf, integration.EXHAUSTED / shown, integration.PERIOD / shown],
+            ("generator",),
+            "points after which a generator's numbers come again",
+        ),
         "lattice_level": described(level, ("dimension",), "lattice's error extrapolated to N = 1"),
         "point_error": described(one, ("dimension",), "exact error of one random point"),
         "lattice_exponent": described(
@@ -141,51 +155,61 @@ def claims(dataset):
 
 
 def draw(dataset):
-    """Draw errors against N in 4 and in the most dimensions, powers of N, and who is ahead."""
-    figure, axes = plotting.panels(2, 2, height=3.0, width=8.0)
-    _published(axes[0], dataset)
-    _many(axes[1], dataset.isel(dimension=-1))
-    _powers(axes[2], dataset)
-    _ratios(axes[3], dataset)
-    for axis in axes[:2]:
+    """Draw errors against N in 4 dimensions, a panel a way, and what is found in 2 to 8."""
+    figure, (clouds, (many, *of_dimension)) = plotting.rows((4, 3), heights=(3.1, 3.2), width=8.0)
+    _published(clouds, dataset)
+    _many(many, dataset.isel(dimension=-1))
+    _powers(of_dimension[0], dataset)
+    _ratios(of_dimension[1], dataset)
+    for axis in (*clouds, many):
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel("number of points $N$")
+    for axis in (clouds[0], many):
         axis.set_ylabel("fractional error")
-        axis.legend(loc="lower left", frameon=False)
-    axes[0].set_ylim(1e-9, 10.0)
-    for axis in axes[2:]:
+    for axis in of_dimension:
         axis.set_xlabel("dimension $d$")
+    for axis in (many, *of_dimension):
+        plotting.legend_on_top(axis, ncols=2)
     return figure
 
 
-def _published(axis, dataset):
-    """Draw the errors of the published figure."""
+def _published(axes, dataset):
+    """Draw the errors of the published figure, each way on its own, over the same exact line."""
     dimension = dataset.attrs["settings"]["shown_dimension"]
-    style = {"ms": 2.5, "lw": 0}
+    n = dataset.n_points.values
     value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
-
-    def named(name, k):
-        power = plotting.with_error(estimate.Mean(float(value[k]), float(error[k])))
-        return f"{name}: {power}".replace("-", "−")
-
-    n, colour = dataset.n_points, plotting.COLOURS[0]
-    axis.plot(n, dataset.lattice_error, "o", color=colour, label=named("lattice", 0), **style)
+    axes[0].plot(n, dataset.lattice_error, "o", ms=2.5, color=plotting.COLOURS[0])
     for k, name in enumerate(PSEUDORANDOM):
         here = dataset.sel(generator=name)
-        axis.errorbar(
-            n,
-            here.rms,
-            here.rms_error,
-            fmt=plotting.MARKERS[k + 1],
-            color=plotting.COLOURS[k + 1],
-            elinewidth=0.6,
-            label=named(LABELS[k], 1) if k == 0 else LABELS[k],
-            **style,
-        )
+        colour = {"color": plotting.COLOURS[k + 1], "fmt": plotting.MARKERS[k + 1]}
+        axes[k + 1].errorbar(n, here.rms, here.rms_error, ms=2.5, elinewidth=0.6, **colour)
+        _mark_numbers(axes[k + 1], dimension, float(here.runs_out), n[-1])
+        axes[k + 1].set_title(LABELS[k])
     one = techniques_exact.point_error(dimension)
-    axis.plot(n, one * n**-0.5, color="black", lw=1, label="exact, $N^{-1/2}$")
-    axis.set_title(f"$d$ = {dimension}; fitted powers of $N$")
+    for k, axis in enumerate(axes):
+        axis.plot(n, one * n**-0.5, color="black", lw=1, label="exact, $N^{-1/2}$")
+        axis.set_xlim(0.5, 2.0 * n[-1])
+        axis.set_ylim(1e-7, 10.0)
+        axis.tick_params(labelleft=k == 0)
+        if k < 2:
+            power = plotting.with_error(estimate.Mean(float(value[k]), float(error[k])))
+            text = f"power {power}".replace("-", "−")
+            axis.text(0.03, 0.03, text, transform=axis.transAxes, size=7.5)
+    axes[0].set_title(f"lattice, $d$ = {dimension}")
+    axes[0].legend(loc="upper right", frameon=False)
+
+
+def _mark_numbers(axis, dimension, runs_out, most):
+    """Count random numbers on a second axis, and mark where a generator has no new ones."""
+    numbers = axis.secondary_xaxis(
+        "top", functions=(lambda n: n * dimension, lambda n: n / dimension)
+    )
+    numbers.set_xlabel(f"random numbers, ${dimension}N$")
+    if runs_out < most:
+        axis.axvline(runs_out, color="0.4", ls=":", lw=1)
+        place = {"transform": axis.get_xaxis_transform(), "ha": "right", "size": 7.5}
+        axis.text(0.6 * runs_out, 0.03, "no new numbers\nfrom here on", **place)
 
 
 def _powers(axis, dataset):
@@ -200,9 +224,7 @@ def _powers(axis, dataset):
     ):
         axis.plot(d, dataset[variable], color="0.3", ls=dash, lw=1, label=label)
     axis.axhline(-0.5, color="black", ls=":", lw=1.2, label="$-1/2$")
-    axis.set_ylim(-0.95, 0.12)
     axis.set_ylabel("power of $N$")
-    axis.legend(ncols=2, loc="upper left", frameon=False)
 
 
 def _ratios(axis, dataset):
@@ -221,7 +243,6 @@ def _ratios(axis, dataset):
     axis.axhline(1.0, color="black", lw=1)
     axis.set_yscale("log")
     axis.set_ylabel("error, Monte Carlo / lattice (fit)")
-    axis.legend(title="above 1 the lattice is ahead", frameon=False)
 
 
 def _many(axis, here):
@@ -248,4 +269,4 @@ def _many(axis, here):
         )
     grid = np.array([1.0, float(here.edge[-1]) ** d])
     axis.plot(grid, float(here.point_error) * grid**-0.5, color="black", lw=1, label="$N^{-1/2}$")
-    axis.set_title(f"$d$ = {d}")
+    axis.set_title(f"$d$ = {d}", y=1.22)

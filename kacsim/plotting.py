@@ -51,9 +51,7 @@ def distinct(count):
     """Return so many colours, no two alike."""
     if count <= len(MUTED):
         return MUTED[:count]
-    return [
-        matplotlib.colors.to_hex(matplotlib.colormaps["turbo"](k)) for k in np.linspace(0, 1, count)
-    ]
+    return list(matplotlib.colormaps["turbo"](np.linspace(0.0, 1.0, count)))
 
 
 def panels(rows, columns, *, share_y=False, height=None, width=None, projection=None):

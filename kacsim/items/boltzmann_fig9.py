@@ -77,7 +77,7 @@ def draw(dataset):
         _probes.draw_sizes(column[2], relative, angle, "relative")
         _probes.draw_sizes(column[3], here, angle, "recursion")
         for axis in (column[0], *column[2:]):
-            plotting.half_turns(axis, angle[-1])
+            plotting.half_turns(axis, angle.max())
         for axis in column[2:]:
             axis.set_yscale("log")
         column[0].set_title(f"$r$ = {radius:g} $c_{{q,eq}}/\\omega$")

@@ -58,6 +58,7 @@ SETTINGS = [
     ("seed: -1", "seed = -1", "at least 0"),
     ("seed: 1.5", "seed = 1.5", "integer"),
     ("kac_fig5: {tail_threshold: [9.0]}", "kac_fig5.tail_threshold[0] = 9.0", "at most"),
+    ("kac_fig6: {drawn_tolerance: 1.0e-7}", "kac_fig6.drawn_tolerance = 1e-07", "tolerance"),
     ("kac_fig7: {n_particles: 4}", "kac_fig7.n_particles = 4", "3"),
     ("kac_fig1: 3", "kac_fig1 = 3", "object"),
     ("kac_fig1: [1]", "kac_fig1 = [1]", "object"),

@@ -23,6 +23,7 @@ from kacsim.items import published
 from kacsim.kernels.provenance import ROOT
 from kacsim.report import inventory, overview, registered, svg, verdicts
 from kacsim.report.numbers import bound, listed, measured, number, pm, subscripted
+from kacsim.statistics.verdict import MISSED
 
 TEXTS = ROOT / "reports"
 FORMATS = ("svg", "png", "pdf")  # every figure is drawn in all of them
@@ -90,7 +91,13 @@ def environment():
     loader, undefined = jinja2.FileSystemLoader(TEXTS), jinja2.StrictUndefined
     trim = {"trim_blocks": True, "lstrip_blocks": True}
     env = jinja2.Environment(loader=loader, autoescape=True, undefined=undefined, **trim)
-    env.globals |= {"number": number, "listed": listed, "pm": pm, "signs": verdicts.SIGNS}
+    env.globals |= {
+        "number": number,
+        "listed": listed,
+        "pm": pm,
+        "signs": verdicts.SIGNS,
+        "missed": MISSED,
+    }
     env.filters["subscripted"] = subscripted
     env.globals["critical_time"] = bkw.critical_time
     return env

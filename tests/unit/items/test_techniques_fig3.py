@@ -132,7 +132,7 @@ def test_choice_among_weighted_particles():
     assert float(found.weighted_speed) == pytest.approx(3.05)
     assert float(found.weighted_speed_error) == pytest.approx(0.05 / ROOT)
     assert float(found.weighted_outward) == 0.0
-    outward = SELECTED + [[0, 5, 0, 0]]
+    outward = SELECTED + np.array([0, 5, 0, 0])
     assert float(made(selected=outward).weighted_outward) == 20.0
 
 

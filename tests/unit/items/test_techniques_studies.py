@@ -56,7 +56,7 @@ def exercises():
 
 
 def test_exercises_1_and_2():
-    """Steps of all faces: 32.5 +- 1 without a particle, 36 with one, 14 with two, 17.5 with three."""
+    """Steps of all faces: 32.5 +- 1 without a particle, 36 with one, 14 with two, 17.5 more."""
     dataset = exercises()
     found = fabricated.found("techniques_exercises", dataset)
     assert chapter.values(found, "techniques_exercise1") == [

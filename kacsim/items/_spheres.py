@@ -5,7 +5,10 @@ import math
 from kacsim.cases import make_case
 from kacsim.items._lazy import estimate, np, slope, techniques_exact
 
-LATTICE_BLOCK = 5  # neighbouring M whose errors may depend on each other
+LATTICE_BLOCK = 10  # neighbouring M; even, since odd M err otherwise than even ones
+CIRCLE_BLOCKS = 100  # of neighbouring circles
+FEW_CELLS, MANY_CELLS = 16, 64  # along the line, between which the power of M is taken
+BEYOND = 4  # dimension above which Monte Carlo is said to have the advantage
 PSEUDORANDOM = ("good", "exhausted", "congruential")
 MANY = ("lattice", "random", "sobol")
 
@@ -25,16 +28,26 @@ def _points(settings, generator, dimension, n_points, n_replicates):
 def cases(settings):
     """Return name -> case: lattices, and points of every generator."""
     edges = list(range(1, settings["largest_edge"] + 1))
+    fitted = list(range(1, settings["power_largest_edge"] + 1))
     size = [settings[f"{name}n_replicates"] for name in ("", "bad_", "congruential_")]
     found = {
         "lattice": make_case(
             "sphere_lattice",
             dimension=sorted({*settings["dimension"], settings["shown_dimension"]}),
-            edge=edges,
+            edge=fitted,
             n_draws=1,
             n_replicates=1,
             seed=settings["seed"],
-        )
+        ),
+        "circles": make_case(
+            "circle_lattice",
+            smallest=settings["smallest_circle"],
+            largest=settings["largest_circle"],
+            n_edges=settings["n_circles"],
+            n_draws=1,
+            n_replicates=1,
+            seed=settings["seed"],
+        ),
     }
     shown = [settings["shown_dimension"]], [edge ** settings["shown_dimension"] for edge in edges]
     for name, n_replicates in zip(PSEUDORANDOM, size, strict=True):
@@ -50,6 +63,13 @@ def problems(settings):
     """Yield (key, sentence) of ends of ranges that leave nothing between them."""
     if settings["fit_from_edge"] > settings["largest_edge"] - 3:
         yield "fit_from_edge", f"must be at least 3 below largest_edge = {settings['largest_edge']}"
+    if settings["power_largest_edge"] < settings["largest_edge"]:
+        yield "power_largest_edge", f"must be at least largest_edge = {settings['largest_edge']}"
+    if settings["fit_from_edge"] + 2 * LATTICE_BLOCK > settings["power_largest_edge"]:
+        least = settings["fit_from_edge"] + 2 * LATTICE_BLOCK
+        yield "power_largest_edge", f"must leave two blocks: be at least {least}"
+    if not {2, BEYOND - 1, BEYOND, BEYOND + 1} <= {*settings["dimension"]}:
+        yield "dimension", f"must hold 2, {BEYOND - 1}, {BEYOND} and {BEYOND + 1}"
     if settings["first_power"] >= settings["last_power"]:
         yield "first_power", f"must be below last_power = {settings['last_power']}"
 
@@ -60,6 +80,12 @@ def errors_of(sample, dimension):
     n = sample["points"].values
     share = sample["inside"].values[place] / n
     return share / techniques_exact.ball_volume(dimension) - 1.0, n
+
+
+def volumes(sample, dimension):
+    """Return the volume that every replicate found with the most points."""
+    place = list(sample["dimension"].values).index(dimension)
+    return sample["inside"].values[place, :, -1] / sample["points"].values[-1]
 
 
 def rms(errors):
@@ -78,20 +104,42 @@ def fit(errors, n, first):
     return slope.of_squares(many.ravel(), squares.ravel(), groups.ravel())
 
 
-def lattice_errors(sample, dimension):
-    """Return the fractional errors of the lattice and the edges."""
+def lattice_errors(sample, dimension, largest):
+    """Return the fractional errors of the lattice and the edges, up to the largest one."""
     place = list(sample["dimension"].values).index(dimension)
     edge = sample["edge"].values.astype(float)
-    share = sample["inside"].values[place] / edge**dimension
+    edge = edge[edge <= largest]
+    share = sample["inside"].values[place, : edge.size] / edge**dimension
     return share / techniques_exact.ball_volume(dimension) - 1.0, edge
 
 
-def fit_lattice(sample, dimension, settings):
-    """Return the slope of the errors of the lattice, and its level."""
-    error, edge = lattice_errors(sample, dimension)
+def fit_lattice(sample, dimension, settings, largest):
+    """Return the slope of the errors of the lattice up to an edge, and its level."""
+    error, edge = lattice_errors(sample, dimension, largest)
     keep = edge >= settings["fit_from_edge"]
     groups = np.arange(keep.sum()) // LATTICE_BLOCK
     return slope.of_squares(edge[keep] ** dimension, error[keep] ** 2, groups)
+
+
+def fit_circles(sample):
+    """Return the slope of the errors of the lattice over circles of many sizes."""
+    edge = sample["edge"].values.astype(float)
+    error = sample["inside"].values / edge**2 / techniques_exact.ball_volume(2) - 1.0
+    groups = np.arange(edge.size) * CIRCLE_BLOCKS // edge.size
+    return slope.of_squares(edge**2, error**2, groups)[0]
+
+
+def line_power():
+    """Return the power of M of the midpoint sum's error on a line, over all places of a step."""
+    few, many = (techniques_exact.step_error(cells) for cells in (FEW_CELLS, MANY_CELLS))
+    return math.log(many / few) / math.log(MANY_CELLS / FEW_CELLS)
+
+
+def advantage(error, edge, dimension, settings):
+    """Return the exact rms error of Monte Carlo over the lattice's, larger half of the edges."""
+    top = edge >= max(settings["fit_from_edge"], settings["largest_edge"] // 2)
+    squares = error[top] ** 2 * edge[top] ** dimension  # N times: every N counts alike
+    return techniques_exact.point_error(dimension) / math.sqrt(squares.mean())
 
 
 def crossing(one, level, power):
@@ -99,19 +147,3 @@ def crossing(one, level, power):
     gap = power + 0.5
     # a lattice that falls as fast never falls behind
     return float((one / level) ** (1.0 / gap)) if gap > 0.02 else math.inf
-
-
-def ahead(found, error, edge, shown, settings):
-    """Return log10 of the ratio of rms errors over the upper half of the edges, jackknifed."""
-    top = edge >= max(settings["fit_from_edge"], settings["largest_edge"] // 2)
-    weight = edge[top] ** shown  # N times the squared error: every N counts alike
-    drawn, _ = errors_of(found["good"], shown)
-    random = (drawn[:, top] ** 2 * weight).mean(axis=1)
-    lattice = error[top] ** 2 * weight
-    groups = np.arange(lattice.size) // LATTICE_BLOCK
-    parts = np.bincount(groups, lattice) / np.bincount(groups)
-    value, errors = 0.5 * math.log10(random.mean() / lattice.mean()), []
-    for part in (random, parts):
-        mean = estimate.of_replicates(part)
-        errors.append(mean.standard_error / mean.value * 0.5 / math.log(10.0))
-    return estimate.Mean(value, math.hypot(*errors))

@@ -26,6 +26,20 @@ def gas_case(settings, sampler, **parameters):
     return case(settings, sampler, **({key: settings[key] for key in GAS_NAMES} | parameters))
 
 
+def mean_of(here, name, degrees=None):
+    """Return a variable of a dataset and its error as an estimate.
+
+    Parameters
+    ----------
+    here : dataset, reduced to one place
+    name : its variable; the error is the variable name_error
+    degrees : of freedom; those of the item's replicates if not given
+    """
+    if degrees is None:
+        degrees = here.attrs["settings"]["n_replicates"] - 1
+    return estimate.Mean(float(here[name]), float(here[f"{name}_error"]), degrees)
+
+
 def distance(counts):
     """Return the Kolmogorov-Smirnov distance over the edges of cells of equal probability."""
     share = np.cumsum(counts) / np.sum(counts)

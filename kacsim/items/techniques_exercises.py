@@ -1,32 +1,36 @@
 """Exercises 1 to 3 of the chapter, solved and checked."""
 
+import functools
 import math
 
 from kacsim.items import _techniques
 from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
-from kacsim.techniques.constants import SPEED_2, flux_at_rest
+from kacsim.techniques.constants import NUMBER, SPEED_2, flux_at_rest
 
 AREA_WAYS = ("hits", "heights")
 LABELS = ("points below the curve", "mean height")
 BINS = 50
 
 
+def _area_and_step(settings):
+    """Return the area of a face times the duration of a step."""
+    return 4.0 * settings["half_width"] ** 2 * settings["step"]
+
+
 def _cases(settings):
-    half = settings["half_width"]
-    area = 4.0 * half[1] * half[2]
-    rate = area * flux_at_rest(1.0, settings["temperature"]) * settings["step"]
+    rate = _area_and_step(settings) * flux_at_rest(1.0, settings["temperature"])
     return {
         "exponential": _techniques.case(
             settings, "inversion", law="exponential", rate=settings["rate"]
         ),
-        # the density that makes one particle per step and face at -x
+        # the density that makes one particle per step and face of a cube
         "gas": _techniques.case(
             settings,
             "outer_gas",
             density=round(1.0 / rate, 12),
             temperature=settings["temperature"],
             drift=[0.0, 0.0, 0.0],
-            half_width=half,
+            half_width=[settings["half_width"]] * 3,
             step=settings["step"],
             n_draws=settings["gas_n_draws"],
         ),
@@ -81,12 +85,15 @@ def _exponential(sample, settings):
 
 
 def _gas(sample, case, settings):
-    """Exercise 2: v_n under 1 - exp(-v**2 / 2 T), rate n sqrt(T / 2 pi), Poisson numbers."""
-    steps = sample["steps"].values[:, 0]
-    rate = estimate.of_replicates(_techniques.per_step(sample)[:, 0])
-    area = 4.0 * settings["half_width"][1] * settings["half_width"][2] * settings["step"]
-    square = _techniques.face_means(sample, SPEED_2)[0]
-    speeds, edges = sample["speeds"].values[:, 0].sum(axis=0), sample["speed_edge"].values
+    """Exercise 2: v_n under 1 - exp(-v**2 / 2 T), rate n sqrt(T / 2 pi), Poisson numbers.
+
+    The six faces of a cube, at rest in the gas, are as good as each other.
+    """
+    steps, sums = sample["steps"].values.sum(axis=1), sample["sum"].values.sum(axis=1)
+    rate = estimate.of_replicates(_techniques.per_step(sample).mean(axis=1))
+    area = _area_and_step(settings)
+    square = estimate.of_replicates(sums[:, SPEED_2] / np.maximum(1.0, sums[:, NUMBER]))
+    speeds, edges = sample["speeds"].values.sum(axis=(0, 1)), sample["speed_edge"].values
     law = np.diff(np.append(-np.expm1(-(edges**2) / (2.0 * settings["temperature"])), 1.0))
     shares = [estimate.of_replicates(steps[:, k] / steps.sum(axis=-1)) for k in range(3)]
     exact = case.parameters["density"] * math.sqrt(settings["temperature"] / (2.0 * math.pi))
@@ -118,7 +125,9 @@ def _area(sample, settings):
     squares = relative**2
     mean = squares.mean(axis=1)
     error = squares.std(axis=1, ddof=1) / math.sqrt(squares.shape[1])
-    needed = mean[:, -1] * n[-1] / wanted**2
+    # N times the squared error has one mean at all N: every number of points tells of it
+    of_seeds = (squares * n).mean(axis=2) / wanted**2
+    needed = [estimate.of_replicates(row) for row in of_seeds]
     within = (np.abs(relative) <= wanted).mean(axis=1)
     last = [estimate.of_replicates(row) for row in sample["estimate"].values[:, :, -1]]
     described, at = store.described, ("way", "points")
@@ -130,44 +139,64 @@ def _area(sample, settings):
         "rms": described(np.sqrt(mean), at, "root mean square relative error over seeds"),
         "rms_error": described(error / (2.0 * np.sqrt(mean)), at, "standard error"),
         "within": described(within, at, "share of seeds within the wanted accuracy"),
-        "needed": described(needed, ("way",), "points for this rms accuracy"),
-        "needed_error": described(error[:, -1] * n[-1] / wanted**2, ("way",), "standard error"),
+        "needed": described([m.value for m in needed], ("way",), "points for this rms accuracy"),
+        "needed_error": described([m.standard_error for m in needed], ("way",), "standard error"),
         "needed_exact": described(np.array(predicted) / wanted**2, ("way",), "predicted"),
     }
 
 
 def claims(dataset):
-    """Test the solutions of the exercises against what was drawn."""
+    """Test the solutions of the exercises against what was drawn: checks of this project."""
     s = dataset.attrs["settings"]
-
-    def row(claim, variable, printed, **place):
-        here = dataset.isel(**place)
-        return verdict.Finding(
-            claim,
-            float(here[variable]),
-            float(here[f"{variable}_error"]),
-            printed=float(printed),
+    mean = functools.partial(_techniques.mean_of, dataset)
+    numbers = [
+        verdict.Part(
+            _techniques.mean_of(dataset.isel(number=k), "number_share"),
+            f"{k} injections",
+            printed=float(dataset.number_exact[k]),
         )
-
-    found = [
-        row("techniques_exercise1", "exponential_mean", 1.0 / s["rate"]),
-        row("techniques_exercise2_velocity", "square", 2.0 * s["temperature"]),
-        row("techniques_exercise2_rate", "flux", dataset.flux_exact),
+        for k in range(3)
     ]
-    for k in range(3):
-        exact = dataset.number_exact[k]
-        found.append(row(f"techniques_exercise2_{k}", "number_share", exact, number=k))
-    for k, method in enumerate(AREA_WAYS):
-        found += [
-            row(f"techniques_exercise3_{method}", "area", dataset.area_exact, way=k),
-            row(
-                f"techniques_exercise3_{method}_points",
-                "needed",
-                dataset.needed_exact[k],
-                way=k,
-            ),
-        ]
-    return found
+    areas, points = [], []
+    for way, label in zip(AREA_WAYS, LABELS, strict=True):
+        here, degrees = dataset.sel(way=way), s["area_n_replicates"] - 1
+        area = _techniques.mean_of(here, "area", degrees)
+        areas.append(verdict.Part(area, label, printed=float(dataset.area_exact)))
+        needed = _techniques.mean_of(here, "needed", degrees)
+        points.append(verdict.Part(needed.over(float(here.needed_exact)), label))
+    last = dataset.isel(points=-1)
+    return [
+        verdict.finding("techniques_exercise1", mean("exponential_mean"), printed=1.0 / s["rate"]),
+        verdict.finding(
+            "techniques_exercise2_velocity",
+            mean("square"),
+            "Gas that is moved without knowing fluxes; the rival is the mean under f.",
+            printed=2.0 * s["temperature"],
+            rival=s["temperature"],
+        ),
+        verdict.finding(
+            "techniques_exercise2_rate", mean("flux"), printed=float(dataset.flux_exact)
+        ),
+        verdict.Finding(
+            "techniques_exercise2_numbers",
+            tuple(numbers),
+            "All faces of a cube, whose rate per step is one.",
+        ),
+        verdict.Finding(
+            "techniques_exercise3_area", tuple(areas), f"N = {int(last.points)}, mean over seeds."
+        ),
+        verdict.Finding(
+            "techniques_exercise3_points",
+            tuple(points),
+            "Points for a root mean square error over seeds of "
+            f"{100 * s['accuracy']:g} %: "
+            + ", ".join(
+                f"{float(dataset.needed.sel(way=way)):.0f} by {label}"
+                for way, label in zip(AREA_WAYS, LABELS, strict=True)
+            )
+            + "; measured over predicted.",
+        ),
+    ]
 
 
 def draw(dataset):

@@ -2,17 +2,8 @@
 
 import math
 
-from kacsim.items import _spheres
-from kacsim.items._lazy import (
-    estimate,
-    integration,
-    np,
-    plotting,
-    store,
-    techniques_exact,
-    verdict,
-    xr,
-)
+from kacsim.items import _sphere_claims, _spheres
+from kacsim.items._lazy import estimate, integration, np, plotting, store, techniques_exact, xr
 from kacsim.items._spheres import MANY, PSEUDORANDOM
 
 LABELS = ("Monte Carlo, good", "Monte Carlo, exhausted", "Monte Carlo, congruential")
@@ -31,45 +22,63 @@ def reduce(samples, settings):
     """Return fractional errors against N, the powers of N with errors, and who is ahead."""
     found = {name: samples[case.id] for name, case in _spheres.cases(settings).items()}
     shown, dimensions = settings["shown_dimension"], settings["dimension"]
-    first = settings["fit_from_edge"] ** shown
-    error, edge = _spheres.lattice_errors(found["lattice"], shown)
+    largest = settings["largest_edge"]
+    error, edge = _spheres.lattice_errors(found["lattice"], shown, largest)
     roots, root_errors = [], []
-    powers = [_spheres.fit_lattice(found["lattice"], shown, settings)[0]]
+    every = settings | {"fit_from_edge": 1}
+    powers = [_spheres.fit_lattice(found["lattice"], shown, every, largest)[0]]
+    upper = _spheres.fit_lattice(found["lattice"], shown, settings, largest)[0]
     for name in PSEUDORANDOM:
         errors, n = _spheres.errors_of(found[name], shown)
         root, root_error = _spheres.rms(errors)
         roots.append(root)
         root_errors.append(root_error)
-        powers.append(_spheres.fit(errors, n, first)[0])
-    slopes, many = np.empty((2, len(MANY), len(dimensions))), []
+        powers.append(_spheres.fit(errors, n, n[0])[0])
+    slopes, many = np.empty((3, len(MANY), len(dimensions))), []
     level = np.empty(len(dimensions))
     for i, d in enumerate(dimensions):
-        lattice, level[i] = _spheres.fit_lattice(found["lattice"], d, settings)
+        lattice, level[i] = _spheres.fit_lattice(
+            found["lattice"], d, settings, settings["power_largest_edge"]
+        )
         parts = [lattice]
         for name in MANY[1:]:
             errors, n = _spheres.errors_of(found[name], d)
             parts.append(_spheres.fit(errors, n, n[0])[0])
             many.append(_spheres.rms(errors))
-        slopes[:, :, i] = np.array([[p.value, p.standard_error] for p in parts]).T
+        slopes[:, :, i] = np.array([[p.value, p.standard_error, p.degrees] for p in parts]).T
     one = [techniques_exact.point_error(d) for d in dimensions]
     described, at = store.described, ("generator", "edge")
     both = np.array(dimensions, dtype=float)
     cross = [_spheres.crossing(a, level[i], slopes[0, 0, i]) for i, a in enumerate(one)]
     columns = np.array(many).reshape(len(dimensions), 2, 2, -1)
-    lattices = np.stack([_spheres.lattice_errors(found["lattice"], d)[0] for d in dimensions])
-    ahead = _spheres.ahead(found, error, edge, shown, settings)
+    lattices = np.stack(
+        [_spheres.lattice_errors(found["lattice"], d, largest)[0] for d in dimensions]
+    )
+    volume = estimate.of_replicates(_spheres.volumes(found["good"], shown))
+    circle = _spheres.fit_circles(found["circles"])
     variables = {
         "lattice_error": described(np.abs(error), ("edge",), "fractional error of the lattice"),
         "rms": described(roots, at, "root mean square fractional error"),
         "rms_error": described(root_errors, at, "standard error"),
         "shown_slope": described([p.value for p in powers], ("line",), "power of N"),
         "shown_slope_error": described([p.standard_error for p in powers], ("line",), "its error"),
+        "upper_slope": described(upper.value, (), "the lattice's from the smallest M of fits on"),
         "slope": described(slopes[0], ("way", "dimension"), "power of N"),
         "slope_error": described(slopes[1], ("way", "dimension"), "standard error"),
         "runs_out": described(
             [math.inf, integration.EXHAUSTED / shown, integration.PERIOD / shown],
             ("generator",),
             "points after which a generator's numbers come again",
+        ),
+        "slope_degrees": described(slopes[2], ("way", "dimension"), "degrees of freedom"),
+        "circle_slope": described(circle.value, (), "power of N of the lattice, larger circles"),
+        "circle_slope_error": described(circle.standard_error, (), "standard error"),
+        "circle_slope_degrees": described(circle.degrees, (), "degrees of freedom"),
+        "line_power": described(_spheres.line_power(), (), "power of M, sum of a step on a line"),
+        "volume": described(volume.value, (), "Monte Carlo's volume, most points"),
+        "volume_error": described(volume.standard_error, (), "standard error"),
+        "lattice_volume": described(
+            (1.0 + error[-1]) * techniques_exact.ball_volume(shown), (), "S / M^d, largest M"
         ),
         "lattice_level": described(level, ("dimension",), "lattice's error extrapolated to N = 1"),
         "point_error": described(one, ("dimension",), "exact error of one random point"),
@@ -89,8 +98,11 @@ def reduce(samples, settings):
         "many_rms_error": described(
             columns[:, :, 1], ("dimension", "points_way", "points"), "standard error"
         ),
-        "ahead": described(ahead.value, (), "log10 of rms Monte Carlo over rms lattice, top half"),
-        "ahead_error": described(ahead.standard_error, (), "standard error"),
+        "advantage": described(
+            _spheres.advantage(error, edge, shown, settings),
+            (),
+            "exact rms error of Monte Carlo over the lattice's, larger half of M",
+        ),
     }
     coords = {
         "edge": ("edge", edge),
@@ -107,51 +119,7 @@ def reduce(samples, settings):
 
 def claims(dataset):
     """Test the powers of N, the bad generator, and where Monte Carlo gets ahead."""
-    value, error = dataset.shown_slope.values, dataset.shown_slope_error.values
-    last = dataset.isel(edge=-1)
-    good, bad, full = (last.sel(generator=name) for name in PSEUDORANDOM)
-    n = f"{float(last.n_points):.0e}"
-    kept = math.hypot(float(bad.rms_error / bad.rms), float(good.rms_error / good.rms))
-    found = [
-        verdict.Finding("techniques_fig4_lattice", value[0], error[0]),
-        verdict.Finding("techniques_fig4_random", value[1], error[1]),
-        verdict.Finding(
-            "techniques_fig4_difference", value[0] - value[1], math.hypot(error[0], error[1])
-        ),
-        verdict.Finding(
-            "techniques_fig4_bad",
-            math.log10(float(bad.rms / good.rms)),
-            kept / math.log(10.0),
-            evidence=f"N = {n}: error {float(bad.rms):.1e}, of the good generator "
-            f"{float(good.rms):.1e}, of a congruential one that runs out {float(full.rms):.1e}.",
-        ),
-        verdict.Finding(
-            "techniques_fig4_as_well", float(dataset.ahead), float(dataset.ahead_error)
-        ),
-    ]
-    for d in dataset.dimension.values:
-        here = dataset.sel(dimension=d, way="lattice")
-        power = float(here.slope), float(here.slope_error)
-        if d == 2:
-            fixed = {"printed": -2.0 / d, "corrected": float(here.lattice_exponent)}
-            found.append(verdict.Finding("techniques_fig4_circle", *power, **fixed))
-        elif d > 2:
-            found.append(
-                verdict.Finding(f"techniques_fig4_power_{d}", *power, printed=-2.0 / float(d))
-            )
-    largest = dataset.isel(dimension=-1)
-    gap = largest.slope.sel(way="lattice") - largest.slope.sel(way="random")
-    both = [float(largest.slope_error.sel(way=name)) for name in MANY[:2]]
-    found.append(
-        verdict.Finding(
-            "techniques_fig4_higher",
-            float(gap),
-            math.hypot(*both),
-            evidence=f"d = {int(largest.dimension)}; Monte Carlo is ahead from N = "
-            f"{float(largest.crossing):.1e} on.",
-        )
-    )
-    return found
+    return _sphere_claims.findings(dataset)
 
 
 def draw(dataset):

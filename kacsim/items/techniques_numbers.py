@@ -5,9 +5,11 @@ import functools
 from kacsim.items import _claims
 
 USES = (
+    "techniques_means",
     "techniques_fig1",
     "techniques_fig2",
     "techniques_fig3",
+    "techniques_steps",
     "techniques_fig4",
     "techniques_exercises",
 )

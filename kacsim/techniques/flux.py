@@ -54,3 +54,15 @@ def moment(power, drift, temperature):
     """Return the mean of v_n**power over the entering particles."""
     moments = half_moments(drift, temperature, power + 1)
     return float(moments[power + 1] / moments[1])
+
+
+def representative_error(drift, temperature, n_representatives):
+    """Return the relative standard deviation of the normal velocity's mean over N representatives.
+
+    Drawn from f and weighted by their inward velocity v they have the mean sum v**2 / sum v; to
+    first order in 1/N its variance is that of v**2 - m v, m the mean, over N (sum v / N)**2.
+    """
+    _, first, second, third, fourth = half_moments(drift, temperature, 4)
+    mean = second / first
+    variance = fourth - 2.0 * mean * third + mean**2 * second
+    return math.sqrt(variance / n_representatives) / first / mean

@@ -1,8 +1,19 @@
 """The samplers of the chapter, declared."""
 
 import functools
+import math
 
-from kacsim.checks import Problem, bounded, count, finite, not_negative, one_of, positive, rising
+from kacsim.checks import (
+    Problem,
+    bounded,
+    count,
+    finite,
+    is_number,
+    not_negative,
+    one_of,
+    positive,
+    rising,
+)
 from kacsim.checks import three as three_values
 from kacsim.samplers import Parameter, Sampler, real, whole
 from kacsim.techniques.constants import CLOSED, LAWS
@@ -14,6 +25,8 @@ ENVELOPES = ("constant", "closer")
 GENERATORS = ("good", "exhausted", "congruential", "sobol")
 LARGEST_EDGE = 400  # cells along an edge: the counting table has 4 edge**2 places
 LARGEST_DIMENSION = 8
+LARGEST_CIRCLE = 10**8  # cells along an edge, whose squares stay whole numbers
+WAYS = ("flight", "steps", "derivative")  # to draw a pair: functions by_{way}
 TABLE_MEGABYTES = 0.25  # of one replicate's counts by cell
 
 
@@ -21,6 +34,18 @@ def rejection(*, law, envelope):
     """Yield the problem of an envelope that the law does not have."""
     if envelope == "closer" and law != "kac_initial":
         yield Problem("envelope", envelope, "only kac_initial has a closer envelope")
+
+
+def correlated(name, value):
+    """Yield a problem unless the value is a correlation."""
+    if not is_number(value) or not -1.0 < value < 1.0:
+        yield Problem(name, value, "must be a number between -1 and 1")
+
+
+def edges_grow(*, smallest, largest, n_edges):
+    """Yield the problem of a range of edges that ends before it begins."""
+    if largest <= smallest:
+        yield Problem("largest", largest, f"must be greater than smallest = {smallest}")
 
 
 def law(allowed=LAWS):
@@ -50,6 +75,12 @@ def points_cost(parameters):
     return max(parameters["n_points"]) * sum(parameters.get("dimension", [6]))
 
 
+def circles_cost(parameters):
+    """Return the steps along the edges of all circles."""
+    span = math.log(parameters["largest"] / parameters["smallest"])
+    return parameters["n_edges"] * parameters["largest"] / span
+
+
 def tables_megabytes(parameters):
     """Return the memory of one replicate's counts by cell, table by table."""
     return TABLE_MEGABYTES * len(parameters.get("n_table", [1]))
@@ -59,6 +90,8 @@ DIMENSIONS = several(
     "dimension", "d", "dimensions of the spheres",
     functools.partial(bounded, least=1, most=LARGEST_DIMENSION),
 )  # fmt: skip
+CELLS = functools.partial(bounded, least=1, most=LARGEST_CIRCLE)
+LATTICES = functools.partial(bounded, least=1, most=10**7)
 POINTS = several("n_points", "n", "numbers of points, growing", count, rising)
 TEMPERATURE = Parameter(
     "temperature", "temp", "T/m, variance of a velocity component", positive, kind=real
@@ -114,6 +147,15 @@ SAMPLERS = (
         ({"n_representatives": 50, "temperature": 1.0, "drift": [0.0] * 3},), kernels="particles",
     ),
     sampler(
+        "entering_pairs", "pairs of correlated velocities that enter through a face",
+        (
+            word("way", WAYS),
+            Parameter("correlation", "rho", "of both velocities", correlated, kind=real),
+        ),
+        tuple({"way": name, "correlation": 0.5} for name in WAYS), kernels="pairs",
+        entries=lambda parameters: (f"by_{parameters['way']}",),
+    ),
+    sampler(
         "sphere_lattice", "volumes of spheres on lattices",
         (
             DIMENSIONS,
@@ -123,6 +165,16 @@ SAMPLERS = (
             ),
         ),
         ({"dimension": [2], "edge": [2]},), kernels="integration", by_replicate=False,
+    ),
+    sampler(
+        "circle_lattice", "volumes of circles on lattices of many sizes",
+        (
+            Parameter("smallest", "m", "points per edge of the smallest", CELLS, kind=whole),
+            Parameter("largest", "to", "points per edge of the largest", CELLS, kind=whole),
+            Parameter("n_edges", "n", "number of lattices", LATTICES, kind=whole),
+        ),
+        ({"smallest": 2, "largest": 9, "n_edges": 3},), kernels="circles", check=edges_grow,
+        cost=circles_cost, by_replicate=False,
     ),
     sampler(
         "sphere_points", "volumes of spheres with random or quasi-random points",

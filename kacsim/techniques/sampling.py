@@ -8,6 +8,7 @@ from kacsim.kernels.lookup import named
 from kacsim.store import described
 from kacsim.streams import CHUNK, new_stream
 from kacsim.techniques import (
+    circles,
     identity,
     injection,
     integration,
@@ -20,6 +21,7 @@ from kacsim.techniques.constants import FACES, LAWS, POWERS, SUMS
 
 CELLS = 10007  # of equal probability; a prime, so that few edges are nodes of a table
 KEPT = 600  # trials or particles shown in a figure
+PAIR_LIMIT, PAIR_WIDTH = 6.0, 0.1  # of the velocity along the face, whose tails are bins too
 SPEED_BINS, SPEED_WIDTH = 80, 0.1  # of the normal velocity, in units of the thermal one
 MOST = 40  # particles of a face in one step that have a count of their own
 
@@ -185,6 +187,50 @@ def sample_weighted_particles(case, progress):
         "velocity": described(velocities, ("particle", "axis"), "representative velocities"),
         "weight": described(weights, ("particle",), "weights"),
         "selected": described(selected, ("replicate", "particle"), "times a particle was chosen"),
+    }
+
+
+def sample_entering_pairs(case, progress):
+    """Draw correlated velocities that enter through a face (section 11.3).
+
+    Returns
+    -------
+    dict of mean[replicate, velocity] (normal, along the face), product[replicate] (mean of both),
+    counts[replicate, bin] (by the velocity along the face, the first and the last bin open), edge
+    """
+    p = case.parameters
+    draw = named("kacsim.techniques", "pairs", f"by_{p['way']}")
+    edges = np.linspace(-PAIR_LIMIT, PAIR_LIMIT, round(2.0 * PAIR_LIMIT / PAIR_WIDTH) + 1)
+    n = len(case.replicates)
+    sums, product, counts = np.zeros((n, 2)), np.zeros(n), np.zeros((n, edges.size + 1), np.int64)
+    for row, replicate in enumerate(case.replicates):
+        stream = new_stream(case.seed, case.id, replicate)
+        for first in range(0, case.n_draws, CHUNK):
+            pairs = np.empty((min(CHUNK, case.n_draws - first), 2))
+            draw(pairs, float(p["correlation"]), stream)
+            sums[row] += pairs.sum(axis=0)
+            product[row] += pairs.prod(axis=1).sum()
+            places = np.searchsorted(edges, pairs[:, 1], side="right")
+            counts[row] += np.bincount(places, minlength=edges.size + 1)
+        progress((row + 1) * case.n_draws)
+    return {
+        "mean": described(sums / case.n_draws, ("replicate", "velocity"), "normal, along the face"),
+        "product": described(product / case.n_draws, ("replicate",), "mean of their product"),
+        "counts": described(counts, ("replicate", "bin"), "draws by the velocity along the face"),
+        "edge": described(edges, ("edge",), "edges of the bins"),
+    }
+
+
+def sample_circle_lattice(case, progress):
+    """Count lattice points inside circles: int64 inside[edge]."""
+    p = case.parameters
+    edges = circles.spread_edges(p["smallest"], p["largest"], p["n_edges"])
+    inside = np.empty(edges.size, np.int64)
+    circles.count_circles(inside, edges)
+    progress(1)
+    return {
+        "inside": described(inside, ("edge",), "lattice points inside the circle"),
+        "edge": described(edges, ("edge",), "lattice points per edge"),
     }
 
 

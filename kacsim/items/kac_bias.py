@@ -207,7 +207,7 @@ def _accuracy(dataset):
         verdict.Finding(
             "kac_44_step",
             tuple(changes),
-            f"Change of E v₁⁴ from the largest step to the smallest, over that of eq. (8), N = {n}.",
+            f"From the largest step to the smallest, over E v₁⁴ of eq. (8), N = {n}.",
         ),
     ]
 

@@ -33,6 +33,11 @@ def cases(settings):
     return list(_grid(settings).values())
 
 
+def problems(settings):
+    """Return thresholds of the claim that are not drawn."""
+    return _kac.subset(settings, "claim_threshold", of="tail_threshold")
+
+
 def reduce(samples, settings):
     """Return counts beyond each threshold, shares with exact intervals, and the exact tails."""
     thresholds, grid = settings["tail_threshold"], _grid(settings)
@@ -97,10 +102,10 @@ def claims(dataset):
     moment = estimate.Exact((abs(bias["bird"]) - abs(bias["poisson"])) / limit)
     evidence = (
         f"Gains over the exact values. E v₁⁴ less that of eq. (8), exactly: "
-        f"Bird {bias['bird']:+.1e}, Poisson {bias['poisson']:+.1e}. Bird’s algorithm with a Poisson "
-        "number of collisions in place of the constant one is the Poisson algorithm in law (E v₁⁴ "
-        f"less that of eq. (8): {float(dataset.moment_varied) - limit:+.1e}), so that the variable "
-        "number does not help."
+        f"Bird {bias['bird']:+.1e}, Poisson {bias['poisson']:+.1e}. Bird’s algorithm with a "
+        "Poisson number of collisions in place of the constant one is the Poisson algorithm in law "
+        f"(E v₁⁴ less that of eq. (8): {float(dataset.moment_varied) - limit:+.1e}), so that the "
+        "variable number does not help."
     )
     parts.append(verdict.Part(moment, "E v₁⁴, exact"))
     return [verdict.Finding("kac_tails_better", tuple(parts), evidence)]

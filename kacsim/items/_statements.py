@@ -177,9 +177,10 @@ def _of_the_algorithms(dataset):
         verdict.Finding(
             "kac_41_limit_in_place",
             tuple(in_place),
-            f"E v⁴ at N = {many}, step {step:g}; eq. (10) gives {printed:.4f}, its right limits are "
-            f"{float(dataset.in_place[0]):.4f} and {float(dataset.in_place[1]):.4f}: a partner of "
-            "lower index has collided already in the same step. As the step falls all tend to eq. (8).",
+            f"E v⁴ at N = {many}, step {step:g}. Eq. (10) gives {printed:.4f}; the limits are "
+            f"{float(dataset.in_place[0]):.4f} and {float(dataset.in_place[1]):.4f}: partners of "
+            "lower index have collided already in the same step. As the step falls all tend to "
+            "eq. (8).",
         ),
         verdict.finding(
             "kac_42_limit",

@@ -21,6 +21,12 @@ def velocity_case(settings, algorithm, n_particles, time_step=None, **others):
     )
 
 
+def subset(settings, key, of):
+    """Return the problem of a list of settings that is no part of another one (for `problems`)."""
+    strangers = [str(value) for value in settings[key] if value not in settings[of]]
+    return [(key, f"must be among {of}; {', '.join(strangers)} is not")] if strangers else []
+
+
 def widths(settings):
     """Return all bin widths, the one of the published figures first."""
     return [settings["bin_width"], *settings["other_bin_widths"]]

@@ -3,7 +3,17 @@
 import math
 
 from kacsim.items import _kac
-from kacsim.items._lazy import ancestors, estimate, np, plotting, store, xr
+from kacsim.items._lazy import (
+    ancestors,
+    bird,
+    estimate,
+    np,
+    plotting,
+    statements,
+    store,
+    verdict,
+    xr,
+)
 from kacsim.kac.constants import RATE
 from kacsim.kac.samplers import TITLES
 
@@ -58,6 +68,11 @@ def _counts(samples, grid, shape):
     return table
 
 
+def problems(settings):
+    """Return numbers of particles of the claim that are not drawn."""
+    return _kac.subset(settings, "claim_n_particles", of="forward_n_particles")
+
+
 def reduce(samples, settings):
     """Return collisions per draw with errors, and their predictions."""
     few = np.array(settings["forward_n_particles"], dtype=float)
@@ -87,6 +102,21 @@ def reduce(samples, settings):
         "saving_exact": described(
             whole - 0.5 * (few - 2.0) * never, ("forward_n",), "less the exact saving"
         ),
+        "bird_exact": described(
+            [_collisions_of_bird(n, time) for n in settings["forward_n_particles"]],
+            ("forward_n",),
+            "collisions of Bird's algorithm",
+        ),
+        "poisson_exact": described(
+            [statements.poisson_collisions(n, time, (n - 2.0) / 2.0) for n in few],
+            ("forward_n",),
+            "mean collisions of the Poisson algorithm",
+        ),
+        "poisson_printed": described(
+            [statements.poisson_collisions(n, time, (n - 1.0) / 2.0) for n in few],
+            ("forward_n",),
+            "mean collisions of the Poisson algorithm at the printed rate",
+        ),
         "ancestral_exact": described(predictions, ("n_particles",), "exact mean, Kac's process"),
         "growth_exact": described(
             [ancestors.expected_collisions(t, n) for t in times], ("growth_time",), "exact mean"
@@ -98,6 +128,32 @@ def reduce(samples, settings):
     coords = {"algorithm": list(FORWARD), "forward_n": few, "n_particles": many}
     coords |= {"growth_time": times}
     return xr.Dataset(variables, coords={key: (key, list(v)) for key, v in coords.items()})
+
+
+def _collisions_of_bird(n_particles, time):
+    """Return the fixed number of collisions of Bird's algorithm."""
+    return bird.arguments(n_particles=n_particles, time=time, collision_rate=RATE)[1]
+
+
+def claims(dataset):
+    """Test by how much the Poisson algorithm has fewer collisions to process than Bird's."""
+    settings = dataset.attrs["settings"]
+    parts, words = [], []
+    for n in settings["claim_n_particles"]:
+        here = dataset.sel(forward_n=float(n))
+        fewer = 1.0 - float(here.poisson_exact / here.bird_exact)
+        parts.append(verdict.Part(estimate.Exact(fewer), f"N = {n}"))
+        words.append(
+            f"N = {n}: Bird {int(here.bird_exact)}, Poisson {float(here.poisson_exact):.1f}, "
+            f"at the printed rate {float(here.poisson_printed):.1f}"
+        )
+    drawn = _kac.mean_of(dataset, "forward", algorithm="poisson", forward_n=float(n))
+    evidence = (
+        f"Share of Bird’s collisions that need not be processed until t = {settings['time']:g}. "
+        f"{'; '.join(words)}. Forward draws at N = {n}: {drawn.value:.0f} ± "
+        f"{drawn.standard_error:.0f}. More is saved than the text says, not less."
+    )
+    return [verdict.Finding("kac_6_collisions", tuple(parts), evidence)]
 
 
 def draw(dataset):

@@ -5,6 +5,7 @@ from kacsim.items._lazy import estimate, histogram, np, plotting, store, verdict
 from kacsim.kac.samplers import TITLES
 
 REFERENCES = ("bird", "poisson")
+MORE = 100  # times as many draws, to tell noise from what the bins do
 DIMS = ("reading", "n_particles", "time_step")
 
 
@@ -19,7 +20,12 @@ def _grid(settings):
 
 def _reference_grid(settings):
     return {
-        (a, n): _kac.velocity_case(settings, algorithm, n_particles)
+        (a, n): _kac.velocity_case(
+            settings,
+            algorithm,
+            n_particles,
+            n_replicates=settings["line_n_replicates" if a + n == 0 else "reference_n_replicates"],
+        )
         for a, algorithm in enumerate(REFERENCES)
         for n, n_particles in enumerate(settings["reference_n_particles"])
     }
@@ -43,12 +49,19 @@ def reduce(samples, settings):
     reference = _kac.tvn_table(samples, grid, tuple(axes), axes, settings)
     keep = ("tvn", "tvn_error", "tvn_spread")
     reference = reference[[*keep]].rename({name: f"reference_{name}" for name in keep})
+    widths, n = _kac.widths(settings), settings["n_draws"]
+    described, dims = store.described, ("bin_width",)
     return xr.merge([table, reference]).assign(
-        normal_floor=store.described(
-            [_normal_floor(width, settings["n_draws"]) for width in _kac.widths(settings)],
-            ("bin_width",),
+        normal_floor=described(
+            [_normal_floor(width, n) for width in widths],
+            dims,
             "mean TVN of exact standard normal draws against the standard normal",
-        )
+        ),
+        large_floor=described(
+            [_kac.noise_floor(settings, width, MORE * n) for width in widths],
+            dims,
+            f"mean TVN of {MORE} times as many exact draws",
+        ),
     )
 
 
@@ -61,65 +74,85 @@ def _normal_floor(bin_width, n_draws):
 
 
 def _reference(dataset, algorithm, n):
+    """Return the mean TVN of an algorithm without a step; its replicates give its error."""
     here = dataset.isel(bin_width=0).sel(algorithm=algorithm, reference_n=n)
-    return estimate.Mean(float(here.reference_tvn), float(here.reference_tvn_error))
+    line = algorithm == REFERENCES[0] and n == dataset.reference_n[0]
+    many = dataset.attrs["settings"]["line_n_replicates" if line else "reference_n_replicates"]
+    return estimate.Mean(float(here.reference_tvn), float(here.reference_tvn_error), many - 1)
 
 
 def claims(dataset):
     """Test what the text says of the step, of the line, and of what it cannot tell apart."""
-    least, most = (int(n) for n in dataset.reference_n.values[[0, -1]])
-    line = _reference(dataset, "bird", least)
-    pairs = {
-        "kac_fig2_bird_larger_n": line.minus(_reference(dataset, "bird", most)),
-        "kac_fig2_poisson": line.minus(_reference(dataset, "poisson", least)),
-        "kac_fig2_normal": estimate.Mean(
-            line.value - float(dataset.normal_floor[0]), line.standard_error
-        ),
-    }
-    found = [
+    numbers = [int(n) for n in dataset.reference_n]
+    floor, normal = float(dataset.floor[0]), float(dataset.normal_floor[0])
+    line, endless = _reference(dataset, "bird", numbers[0]), estimate.Exact(floor)
+    means = {name: [_reference(dataset, name, n) for n in numbers] for name in REFERENCES}
+    levels = [
+        verdict.Part(mean, f"{TITLES[name]}, N = {n}")
+        for name in REFERENCES
+        for n, mean in zip(numbers, means[name], strict=True)
+    ]
+    larger = _gaps(line, dict(zip(numbers[1:], means["bird"][1:], strict=True)), floor)
+    poisson = _gaps(line, dict(zip(numbers, means["poisson"], strict=True)), floor)
+    least = f"Bird at N = {numbers[0]}: {line.value:.5f}; "
+    return [
         verdict.Finding(
             "kac_fig2_line",
-            line.value,
-            line.standard_error,
-            evidence=f"Noise floor {float(dataset.floor[0]):.5f}: the line is nearly all noise.",
-        )
+            (*levels, verdict.Part(endless, "exact draws, N = ∞")),
+            "The noise of the sample size is nearly all of it.",
+        ),
+        verdict.Finding("kac_fig2_bird_larger_n", larger, least + f"exact draws: {floor:.5f}."),
+        verdict.Finding("kac_fig2_poisson", poisson, least + f"exact draws: {floor:.5f}."),
+        verdict.finding(
+            "kac_fig2_normal",
+            _less(line, normal),
+            least + f"standard normal draws: {normal:.5f}, exact draws from eq. (8): {floor:.5f}.",
+        ),
+        _step(dataset),
+        _discretization(dataset),
     ]
-    against = {
-        "kac_fig2_bird_larger_n": _reference(dataset, "bird", most),
-        "kac_fig2_poisson": _reference(dataset, "poisson", least),
-        "kac_fig2_normal": estimate.Mean(float(dataset.normal_floor[0]), 0.0),
-    }
-    found += [
-        verdict.Finding(
-            claim,
-            gap.value,
-            gap.standard_error,
-            evidence=f"Bird at N = {least}: {line.value:.5f}; the other: {against[claim].value:.5f}"
-            + (f", N = {most}." if claim == "kac_fig2_bird_larger_n" else "."),
-        )
-        for claim, gap in pairs.items()
-    ]
-    gains = [_gain(dataset, n) for n in dataset.n_particles.values]
-    worst = min(gains, key=lambda gain: gain.z())
-    found.append(
-        verdict.Finding(
-            "kac_fig2_step",
-            worst.value,
-            worst.standard_error,
-            evidence="The N with the least gain decides; sequential reading.",
-        )
-    )
-    return found
 
 
-def _gain(dataset, n):
-    """Return the fall of the mean TVN from the largest step to the smallest."""
-    here = dataset.isel(bin_width=0).sel(reading=_kac.READINGS[0], n_particles=n)
-    large, small = (
-        _kac.mean_of(here, "tvn", time_step=step)
-        for step in (float(dataset.time_step.max()), float(dataset.time_step.min()))
+def _gaps(line, others, floor):
+    """Return the parts of the line less the means of other N, and less that of exact draws."""
+    parts = [verdict.Part(line.minus(mean), f"N = {n}") for n, mean in others.items()]
+    return *parts, verdict.Part(_less(line, floor), "N = ∞, exact draws")
+
+
+def _less(mean, known):
+    """Return an estimate less a known value."""
+    return estimate.Mean(mean.value - known, mean.standard_error, mean.degrees)
+
+
+def _step(dataset):
+    """Test the fall of the mean TVN from the largest step to the smallest, at every N."""
+    steps = float(dataset.time_step.max()), float(dataset.time_step.min())
+    parts = []
+    for n in dataset.n_particles.values:
+        large, small = (
+            _kac.tvn_of(dataset, reading=_kac.READINGS[0], n_particles=n, time_step=step)
+            for step in steps
+        )
+        parts.append(verdict.Part(large.minus(small), f"N = {n}"))
+    evidence = f"From step {steps[0]:g} to {steps[1]:g}, velocities updated in place."
+    return verdict.Finding("kac_fig2_step", tuple(parts), evidence)
+
+
+def _discretization(dataset):
+    """Test whether it is the bins that keep the TVN of exact draws from zero."""
+    ratio = float(dataset.large_floor[0] / dataset.floor[0])
+    by_width = ", ".join(
+        f"{float(w):g}: {float(dataset.floor.sel(bin_width=w)):.4f}"
+        for w in np.sort(dataset.bin_width.values)
     )
-    return large.minus(small)
+    return verdict.finding(
+        "kac_44_discretization",
+        estimate.Exact(ratio),
+        f"Mean TVN of {MORE} times as many exact draws in the same bins, over that of as many as "
+        f"the text has. Of as many as the text has, by bin width: {by_width}.",
+        printed=1.0,
+        corrected=MORE**-0.5,
+    )
 
 
 def draw(dataset):

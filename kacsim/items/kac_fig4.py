@@ -1,7 +1,7 @@
 """Fig. 4 of the Kac paper: histograms of v_1 under Bird's and the Poisson algorithm."""
 
 from kacsim.items import _kac
-from kacsim.items._lazy import estimate, plotting, store
+from kacsim.items._lazy import plotting, store, verdict
 from kacsim.kac.samplers import TITLES
 
 COMPARED = ("bird", "poisson")
@@ -24,12 +24,22 @@ def reduce(samples, settings):
     ).assign_coords(edge=("edge", edges))
 
 
+def claims(dataset):
+    """Test that the two algorithms are similar by the TVN."""
+    bird, poisson = (_kac.tvn_of(dataset, algorithm=name) for name in COMPARED)
+    evidence = (
+        f"Mean TVN of Bird less that of Poisson. Bird {bird.value:.5f}, "
+        f"Poisson {poisson.value:.5f}, exact draws {float(dataset.floor[0]):.5f}."
+    )
+    return [verdict.finding("kac_fig4_similar", bird.minus(poisson), evidence)]
+
+
 def draw(dataset):
     """Draw one panel per algorithm with eq. (8)."""
     figure, axes = plotting.panels(1, len(COMPARED), share_y=True)
     for k, (axis, algorithm) in enumerate(zip(axes, COMPARED, strict=True)):
-        here = dataset.isel(bin_width=0).sel(algorithm=algorithm)
-        mean = estimate.Mean(float(here.tvn), float(here.tvn_error))
+        here = dataset.sel(algorithm=algorithm)
+        mean = _kac.tvn_of(dataset, algorithm=algorithm)
         plotting.bars(axis, here.edge, here.density, k, f"TVN {plotting.with_error(mean)}")
         plotting.solution(axis, dataset.attrs["settings"]["time"])
         axis.set_title(TITLES[algorithm])

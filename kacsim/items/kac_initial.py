@@ -1,7 +1,8 @@
 """Study: f0 drawn in three ways, by table, by rejection and by the Gamma identity: law and cost."""
 
 from kacsim.items import _techniques
-from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, xr
+from kacsim.items._lazy import estimate, np, plotting, store, techniques_exact, verdict, xr
+from kacsim.kac.constants import MEAN_ENERGY
 
 WAYS = ("constant", "closer", "identity")
 LABELS = ("rejection, constant", "rejection, closer", "Gamma identity")
@@ -68,6 +69,25 @@ def reduce(samples, settings):
         },
         coords={"way": list(WAYS), "n_table": settings["n_table"]},
     )
+
+
+def claims(dataset):
+    """Check that every exact way of drawing f0 has its second moment."""
+    degrees = dataset.attrs["settings"]["n_replicates"] - 1
+    parts = [
+        verdict.Part(
+            estimate.Mean(float(dataset.square[k]), float(dataset.square_error[k]), degrees),
+            label,
+            printed=MEAN_ENERGY,
+        )
+        for k, label in enumerate(LABELS)
+    ]
+    finest = dataset.isel(n_table=-1)
+    evidence = (
+        f"E v² of f₀. A table is no exact way: with {int(finest.n_table)} intervals it gives "
+        f"{float(finest.table_square):.4f}."
+    )
+    return [verdict.Finding("kac_initial_square", tuple(parts), evidence)]
 
 
 def draw(dataset):

@@ -8,10 +8,15 @@ USES = (
     "kac_fig1",
     "kac_fig2",
     "kac_fig3",
+    "kac_fig4",
     "kac_fig5",
     "kac_fig6",
     "kac_fig9",
     "kac_bias",
+    "kac_cost",
+    "kac_initial",
+    "kac_probe",
+    "kac_statements",
     "kac_tails",
 )
 

@@ -3,7 +3,8 @@
 import math
 
 from kacsim.cases import make_case
-from kacsim.items._lazy import exact, np, plotting, store, xr
+from kacsim.items import _kac
+from kacsim.items._lazy import estimate, exact, np, plotting, store, verdict, xr
 from kacsim.kac.constants import RATE
 
 
@@ -24,6 +25,11 @@ def _case(settings, time):
 def cases(settings):
     """Return the probes at every time, oversampled at late ones."""
     return [_case(settings, time) for time in settings["time"]]
+
+
+def problems(settings):
+    """Return velocities of the check that are not probed."""
+    return _kac.subset(settings, "claim_speed", of="speed")
 
 
 def reduce(samples, settings):
@@ -62,6 +68,18 @@ def reduce(samples, settings):
         },
         coords={"time": times, "speed": settings["speed"]},
     )
+
+
+def claims(dataset):
+    """Check the estimates against eq. (8) at the first time, whose variance is finite."""
+    here, settings = dataset.isel(time=0), dataset.attrs["settings"]
+    parts = []
+    for speed in settings["claim_speed"]:
+        one = here.sel(speed=speed)
+        mean = estimate.Mean(float(one.value), float(one.error), settings["n_replicates"] - 1)
+        parts.append(verdict.Part(mean, f"v = {speed:g}", printed=float(one.exact)))
+    evidence = f"f(v, t) at t = {float(here.time):g}."
+    return [verdict.Finding("kac_probe_density", tuple(parts), evidence)]
 
 
 def draw(dataset):

@@ -15,11 +15,6 @@ def shape(time, collision_rate=RATE):
     return 1.0 / (3.0 - 2.0 * math.exp(-collision_rate * time / 8.0))
 
 
-def printed_shape(time):
-    """Return C(t) as one version of the text prints it: exp(-sqrt(pi t) / 16)."""
-    return 1.0 / (3.0 - 2.0 * math.exp(-math.sqrt(math.pi * time) / 16.0))
-
-
 def density(v, time, collision_rate=RATE):
     """Return f(v, t), the solution of the Kac equation (Kac paper, eqs. 8 and 9).
 
@@ -68,6 +63,8 @@ def equilibrium_fourth_moment(n_particles, energy=None):
     return 3.0 * total**2 / (n_particles * (n_particles + 2.0))
 
 
-def shape_fourth_moment(c):
-    """Return E v**4 = (18 C - 3) / (4 C**2) of the density (8) for a value of C."""
-    return (18.0 * c - 3.0) / (4.0 * c**2)
+def shape_moment(order, c):
+    """Return the mean of v**order, an even order, of the density (8) for a value of C."""
+    k = order // 2
+    constant = math.gamma(k + 0.5) / math.sqrt(math.pi)
+    return constant * (1.0 - k + 3.0 * k * c) / c**k

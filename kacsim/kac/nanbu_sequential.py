@@ -129,8 +129,13 @@ def replay_in_place(energy, n_ancestors, first, second, n_events, stream):
     return energy[0]
 
 
-def fourth_moment(*, n_particles, time, time_step, collision_rate):
-    """Return E v_1**4 when particles 1..N are updated in place, O(N**2) per step."""
+def fourth_moment(**process):
+    """Return E v_1**4 when particles 1..N are updated in place."""
+    return float(second_moments(**process)[0, 0])
+
+
+def second_moments(*, n_particles, time, time_step, collision_rate):
+    """Return E x_i x_j of the energies x = v**2, float64[N, N], in O(N**2) per step."""
     n, steps, p = arguments(
         n_particles=n_particles, time=time, time_step=time_step, collision_rate=collision_rate
     )
@@ -150,4 +155,4 @@ def fourth_moment(*, n_particles, time, time_step, collision_rate):
             sums += new - row
             sums[i] = new.sum()
             trace += new[i] - square
-    return float(moments[0, 0])
+    return moments

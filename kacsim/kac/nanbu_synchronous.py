@@ -120,8 +120,13 @@ def replay_steps(energy, n_ancestors, first, second, step_of, new, n_events, str
     return energy[0]
 
 
-def fourth_moment(*, n_particles, time, time_step, collision_rate):
+def fourth_moment(**process):
     """Return E v_1**4 when all partners are read at the old time level."""
+    return second_moments(**process)[0]
+
+
+def second_moments(*, n_particles, time, time_step, collision_rate):
+    """Return (E x_i**2, E x_i x_j) of the energies x = v**2."""
     n, steps, p = arguments(
         n_particles=n_particles, time=time, time_step=time_step, collision_rate=collision_rate
     )
@@ -135,4 +140,4 @@ def fourth_moment(*, n_particles, time, time_step, collision_rate):
         new_a = (1.0 - p) * a + 0.75 * p * (a + b)
         b = (1.0 - p) ** 2 * b + 2.0 * p * (1.0 - p) * one + p**2 * both
         a = new_a
-    return a
+    return a, b

@@ -19,14 +19,20 @@ def arguments(*, n_particles, time, collision_rate):
     return n_particles, collision_rate * time, pair_rate
 
 
-def fourth_moment(*, n_particles, time, collision_rate):
+def fourth_moment(*, n_particles, time, collision_rate, pair_rate=None):
     """Return E v_1**4.
 
     Unknowns: particle 1's E x_1**2, E x_1 x_j, and the others' E x_j**2, E x_j x_k.
+
+    Parameters
+    ----------
+    pair_rate : rate of each pair of the other particles, in units of the collision rate; that of
+        the text if not given
     """
     n = n_particles
     own = 1.0 / (n - 1.0)
-    pair = 1.0 / (n - 2.0) if n > 2 else 0.0
+    printed = 1.0 / (n - 2.0) if n > 2 else 0.0
+    pair = printed if pair_rate is None else pair_rate
     others = n - 2.0
     shared = np.array([1.0, 2.0, 1.0, 0.0])
     matrix = np.zeros((4, 4))

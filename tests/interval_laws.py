@@ -92,16 +92,15 @@ class Normal:
     """Plain normal replicates, or for infinite degrees an error that is known."""
 
     degrees: float
-    theta: float = 0.0
     error: float = 1.0
+    theta: float = 0.0
 
     def draw(self, rng, n_tables):
         """Return (values, errors, degrees), each of n_tables."""
-        degrees = np.full(n_tables, self.degrees)
-        value = rng.standard_normal(n_tables)
-        if math.isinf(self.degrees):
-            return value, np.ones(n_tables), degrees
-        return value, np.sqrt(rng.chisquare(degrees) / degrees), degrees
+        degrees = np.full(n_tables, float(self.degrees))
+        known = math.isinf(self.degrees)
+        factor = np.ones(n_tables) if known else np.sqrt(rng.chisquare(degrees) / degrees)
+        return self.error * rng.standard_normal(n_tables), self.error * factor, degrees
 
 
 @dataclass(frozen=True)

@@ -26,8 +26,9 @@ def of_squares(n, squares, groups):
 
     Returns
     -------
-    (Mean, float), the slope b with a degree of freedom for all groups but one, and the root of
-    exp(a): the error extrapolated to n = 1
+    (Mean, float), the slope b, and the root of exp(a): the error extrapolated to n = 1. The slope
+    has the degrees of freedom of its groups: all but one if they weigh the same, fewer if some lie
+    farther out on the line than others (Satterthwaite)
     """
     n, squares, groups = (np.asarray(x) for x in (n, squares, groups))
     x = np.log(n)
@@ -38,7 +39,9 @@ def of_squares(n, squares, groups):
     beta = _fitted(design, squares, inverse @ design.T @ np.log(known))
     many, shifts = np.unique(groups).size, _left_out(design, squares, groups, beta)[:, 1] / 2.0
     error = math.sqrt((many - 1) / many * ((shifts - shifts.mean()) ** 2).sum())
-    slope = Mean(float(beta[1]) / 2.0, error, many - 1)
+    weights = np.bincount(np.unique(groups, return_inverse=True)[1], (x - centre) ** 2)
+    degrees = weights.sum() ** 2 / (weights**2).sum() - 1.0
+    slope = Mean(float(beta[1]) / 2.0, error, float(degrees))
     return slope, float(math.exp((beta[0] - beta[1] * centre) / 2.0))
 
 

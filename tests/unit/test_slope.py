@@ -37,7 +37,7 @@ def test_slope_of_two_sizes_by_hand():
     steps = np.repeat([-1.0, 1.0], 3) * (sums - 2.0) / (6.0 - sums) / (2.0 * span)
     error = math.sqrt(5 / 6 * ((steps - steps.mean()) ** 2).sum())
     assert fitted.standard_error == pytest.approx(error, rel=1e-6)
-    assert fitted.degrees == 5
+    assert fitted.degrees == pytest.approx(5)
 
 
 def test_slope_and_its_error_are_calibrated(seed):
@@ -112,11 +112,21 @@ def test_slope_is_that_of_statsmodels(k, choice, sm):
             without.append(0.5 * one.params[1])
     many = len(without)
     error = math.sqrt((many - 1) / many * ((without - np.mean(without)) ** 2).sum())
-    assert fitted.degrees == many - 1
     if error > 1e6:  # without a group nothing fixes the slope
         assert fitted.standard_error > 1e6
     else:
         assert fitted.standard_error == pytest.approx(error, rel=1e-4)
+
+
+def test_degrees_by_hand():
+    """Three groups at 1, 10 and 100, a pair each, weigh 1, 0, 1: one degree. Alike: one a seed."""
+    n, squares = np.array([1.0, 1.0, 10.0, 10.0, 100.0, 100.0]), np.arange(1.0, 7.0)
+    apart, _ = slope.of_squares(n, squares, np.repeat([0, 1, 2], 2))
+    assert apart.degrees == pytest.approx(1.0)
+    alike, _ = slope.of_squares(
+        np.tile([2.0, 4.0, 9.0], 7), np.arange(1.0, 22.0), np.arange(21) // 3
+    )
+    assert alike.degrees == pytest.approx(6.0)
 
 
 @pytest.mark.parametrize("k", [0, 2])

@@ -16,6 +16,7 @@ from kacsim.techniques import (
     integration,
     inverse_transform,
     model,
+    pairs,
     particles,
     rejection,
 )
@@ -172,3 +173,27 @@ def test_numbers_of_injected_particles_add_up():
         np.testing.assert_array_equal(found["speeds"].sum(axis=-1), many)
         assert (found["steps"].sum(axis=-1) == 300).all()
         assert found["kept"].shape[0] == min(streaming.KEPT, many.sum())
+
+
+@pytest.mark.parametrize("way", ["flight", "steps", "derivative"])
+def test_pairs_are_counted_and_summed(way):
+    """The streaming of correlated pairs, against its kernel run in one go."""
+    case = make_case("entering_pairs", way=way, correlation=-0.3, **SIZE)
+    found = sampling.run(case)
+    edges = found["edge"][1]
+    for replicate in range(3):
+        drawn = np.empty((case.n_draws, 2))
+        stream = new_stream(5, case.id, replicate)
+        getattr(pairs, f"by_{way}")(drawn, -0.3, stream)
+        np.testing.assert_allclose(found["mean"][1][replicate], drawn.mean(axis=0))
+        np.testing.assert_allclose(found["product"][1][replicate], drawn.prod(axis=1).mean())
+        counts, _ = np.histogram(drawn[:, 1], np.r_[-np.inf, edges, np.inf])
+        np.testing.assert_array_equal(found["counts"][1][replicate], counts)
+
+
+def test_circles_by_the_sampler():
+    case = make_case("circle_lattice", smallest=2, largest=9, n_edges=4, **SIZE)
+    found = sampling.run(case)
+    np.testing.assert_array_equal(found["edge"][1], [2, 3, 5, 9])
+    known = [integration.lattice_count(2, int(edge)) for edge in found["edge"][1]]
+    np.testing.assert_array_equal(found["inside"][1], known)

@@ -164,6 +164,11 @@ def test_claims_of_the_shown_dimension(found):
     ((_, value, error, degrees),) = chapter.values(found, "techniques_fig4_difference")
     assert value == pytest.approx(random.value - lattice_4.value)
     assert (error, degrees) == (pytest.approx(random.standard_error), 3)
+    p, top = VOLUMES[4], slice(LARGEST // 2 - 1, LARGEST)
+    level = math.sqrt(np.mean(lattice(4)[top] ** 2 * EDGES[top] ** 4.0))
+    ratio = math.sqrt((1.0 - p) / p) / level
+    as_well = chapter.values(found, "techniques_fig4_as_well")
+    assert as_well == [("", pytest.approx(ratio), 0.0, None)]
     volumes = chapter.values(found, "techniques_fig4_volume")
     assert volumes[0][1] == pytest.approx(VOLUMES[4] * (1.0 + lattice(4)[LARGEST - 1]))
     assert volumes[1][1] == pytest.approx((VOLUMES[4] * (1.0 + good()[:, -1])).mean())

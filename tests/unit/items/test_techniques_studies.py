@@ -124,13 +124,15 @@ def test_predicted_points_of_exercise_3_by_quadrature():
 
 def means():
     return fabricated.reduced(
-        "techniques_means", fabricated.settings("techniques_means", n_samples=[2, 10, 10_000]), None
+        "techniques_means",
+        fabricated.settings("techniques_means", n_samples=[2, 10, 21, 10_000]),
+        None,
     )
 
 
 def test_means_against_the_binomial_law_of_scipy():
     dataset, p = means(), math.pi**2 / 32
-    for n in (2, 10):
+    for n in (2, 10, 21):
         k = np.arange(n + 1)
         weight = stats.binom.pmf(k, n, p)
         values = [np.r_[np.ones(j), np.zeros(n - j)] for j in k]
@@ -214,14 +216,16 @@ def test_claims_of_steps():
     assert chapter.word(found, "techniques_steps_separable") == "reproduced"
     lines = chapter.values(found, "techniques_steps_flux")[::2]
     assert [one[1] for one in lines] == pytest.approx([1.0] * 3, rel=1e-6)
-    total = integrate.quad(lambda v: v * normal.pdf(v - 0.46), 0, 12)[0]
     shares = chapter.values(found, "techniques_steps_flux")[1::2]
-    for place, (_, value, _, _) in zip((0.5, 1.0, 2.5), shares, strict=True):
-        part = integrate.quad(lambda v: v * normal.pdf(v - 0.46), 0, place)[0]
-        assert value == pytest.approx(part / total, rel=1e-5)
     printed = [one[0] for one in chapter.sets(found, "techniques_steps_flux")]
     assert printed[::2] == [1.0] * 3
-    assert printed[1::2] == pytest.approx([one[1] for one in shares], rel=1e-5)
+    total, *parts = (
+        integrate.quad(lambda v: v * normal.pdf(v - 0.46), 0, end, epsabs=1e-13)[0]
+        for end in (12.0, 0.5, 1.0, 2.5)
+    )
+    for k, part in enumerate(parts):
+        assert shares[k][1] == pytest.approx(part / total, rel=1e-5)
+        assert printed[1::2][k] == pytest.approx(part / total, rel=1e-9)  # the closed form's
 
 
 def test_the_verdict_on_the_steps_hangs_on_the_flight_alone():

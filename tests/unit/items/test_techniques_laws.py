@@ -147,7 +147,7 @@ def test_initial_law_by_table_rejection_and_identity():
         uniforms, square = known[case.parameters.get("envelope", "identity")]
         counts = np.full((N, chapter.CELLS), 100)
         if case.parameters.get("envelope") == "closer":
-            counts[:, 0], counts[:, 1] = [80, 70, 80, 90], [120, 130, 120, 110]
+            counts[:, 0], counts[:, 1] = [70, 80, 80, 90], [130, 120, 120, 110]
         square = fabricated.about(square, 0.01, N)
         return chapter.law(case, square=square, uniforms=uniforms, counts=counts)
 

@@ -24,7 +24,11 @@ def maxwellian(speed, rms_velocity=1.0):
 def relative_density(speed, time, rms_velocity=1.0):
     """Return f(c; t) / M(c) of the BKW mode, eq. (7)."""
     s = (np.asarray(speed, dtype=float) / rms_velocity) ** 2
-    k = shape(time)
+    return relative_of_shape(s, shape(time))
+
+
+def relative_of_shape(s, k):
+    """Return f / M of eq. (7a) at s = c**2 / c_q**2 for any shape 3/5 <= K <= 1."""
     polynomial = (5.0 * k - 3.0) / k + (1.0 - k) / k**2 * s
     return 0.5 * k**-1.5 * polynomial * np.exp(-0.5 * s * (1.0 / k - 1.0))
 
@@ -47,11 +51,41 @@ def fraction(threshold, time, rms_velocity=1.0):
     The integral of 4 pi c**2 f is Q(y) + (1 - K)/(2 K) sqrt(2/pi) y**3 exp(-y**2/2) with
     y = c0 / (sqrt(K) c_q) and Q the Maxwellian's own fraction.
     """
-    k = shape(time)
-    y = np.asarray(threshold, dtype=float) / rms_velocity / np.sqrt(k)
+    return fraction_of_shape(np.asarray(threshold, dtype=float) / rms_velocity, shape(time))
+
+
+def fraction_of_shape(threshold, k):
+    """Return the fraction of eq. (7a) beyond c0 / c_q for any shape 3/5 <= K <= 1."""
+    y = threshold / np.sqrt(k)
     bell = math.sqrt(2.0 / math.pi) * np.exp(-0.5 * y**2)
     maxwell = special.erfc(y / math.sqrt(2.0)) + bell * y
     return maxwell + (1.0 - k) / (2.0 * k) * bell * y**3
+
+
+def change(speed, time):
+    """Return the time derivative of f(c; t), c_q = 1, by dK/dt = (1 - K) / 6."""
+    s, k = np.asarray(speed, dtype=float) ** 2, shape(time)
+    polynomial = (5.0 * k - 3.0) / k + (1.0 - k) / k**2 * s
+    slope = polynomial * (0.5 * s / k**2 - 1.5 / k) + 3.0 / k**2 + s * (k - 2.0) / k**3
+    bell = 0.5 * (2.0 * math.pi * k) ** -1.5 * np.exp(-0.5 * s / k)
+    return bell * slope * (1.0 - k) / 6.0
+
+
+def gain(speed, time, n_nodes=40):
+    """Return the source sis(c; t) of eq. (8b) at one speed, c_q = 1, by Gaussian quadrature.
+
+    Over z, the component of c* along c, e, half the square of the others, and mu, the component of
+    u' along c - c*, with c'**2 and c'***2 as in `kacsim.boltzmann.model.bkw_scatter`.
+    """
+    radial, w_radial = np.polynomial.hermite_e.hermegauss(n_nodes)
+    level, w_level = np.polynomial.laguerre.laggauss(n_nodes)
+    cosine, w_cosine = np.polynomial.legendre.leggauss(n_nodes)
+    z, e, mu = np.meshgrid(radial, level, cosine, indexing="ij")
+    weight = w_radial[:, None, None] * w_level[:, None] * w_cosine / math.sqrt(8.0 * math.pi)
+    total = speed**2 + z**2 + 2.0 * e
+    reach = mu * np.sqrt(np.maximum(0.0, total**2 - 4.0 * (speed * z) ** 2))
+    first, second = (relative_of_shape((total + r) / 2.0, shape(time)) for r in (reach, -reach))
+    return float(maxwellian(speed) * (weight * first * second).sum())
 
 
 def mean_recursion(time, oversampling=1.0, onset=0.0):
@@ -136,6 +170,18 @@ def second_moment_oversampled(time, oversampling, onset=0.0):
         if stop > start and math.isfinite(moment):
             moment = _grow(moment, start, stop, mean_inverse(m))
     return moment
+
+
+def critical_time_oversampled(oversampling, latest=60.0):
+    """Return the time from which the variance is infinite with oversampling; inf if not so soon."""
+    if math.isfinite(second_moment_oversampled(latest, oversampling)):
+        return math.inf
+    early = 0.0
+    while latest - early > 1e-9:
+        middle = 0.5 * (early + latest)
+        finite = math.isfinite(second_moment_oversampled(middle, oversampling))
+        early, latest = (middle, latest) if finite else (early, middle)
+    return early
 
 
 def _grow(moment, start, stop, kept):

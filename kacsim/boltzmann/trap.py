@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+from kacsim.boltzmann import bkw
+
 MAJORANT = (5.0 / 3.0) ** 2.5 / math.e  # largest ratio of the BKW start to its Maxwellian, eq. (37)
 
 
@@ -75,3 +77,43 @@ def ballistic_density(radius, radial, tangential, phase, breathing, start_phase=
     start = ballistic(radius, radial, tangential, phase)
     now = breathing_density(radius, radial, tangential, phase, breathing, start_phase)
     return now * relative_start(*start, breathing, start_phase)
+
+
+def free_shape(phase, breathing, start_phase=0.0):
+    """Return K of the cloud without collisions: its density is eq. (7a) of r, of this shape.
+
+    r = r0 (cos + v sin) + w sin of the phase, with r0 normal, v r0 the flow at the start and w of
+    the BKW law of shape 3/5; the variance per axis is that of eq. (31).
+    """
+    across = thermal_speed(0.0, breathing, start_phase) * np.sin(phase)
+    return 1.0 - 0.4 * across**2 / swelling(phase, breathing, start_phase)
+
+
+def free_relative_cloud(radius, phase, breathing, start_phase=0.0):
+    """Return the density of matter without collisions over that of eq. (31a)."""
+    square = np.asarray(radius) ** 2 / swelling(phase, breathing, start_phase)
+    return bkw.relative_of_shape(square, free_shape(phase, breathing, start_phase))
+
+
+def fraction(radius, phase, breathing, start_phase=0.0, shape=1.0):
+    """Return the share of the matter beyond a radius: of eq. (31a), or of the shape of another."""
+    size = np.sqrt(swelling(phase, breathing, start_phase))
+    return bkw.fraction_of_shape(np.asarray(radius, dtype=float) / size, shape)
+
+
+def majorant(radius, phase, coupling, breathing, start_phase=0.0):
+    """Return the raised frequency of eq. (36), in omega."""
+    return MAJORANT * coupling * cloud(radius, phase, breathing, start_phase)
+
+
+def highest_majorant(breathing, coupling):
+    """Return the inner majorant of eq. (39), in omega."""
+    return MAJORANT * coupling / (math.sqrt(2.0 * math.pi) * math.sqrt(1.0 - breathing)) ** 3
+
+
+def constant_recursion(phase, rate):
+    """Return the mean recursion of Algorithm 6 with a constant raised frequency: four calls each.
+
+    rec' = 3 rate rec + rate, rec(0) = 1.
+    """
+    return (4.0 * np.exp(3.0 * rate * np.asarray(phase, dtype=float)) - 1.0) / 3.0

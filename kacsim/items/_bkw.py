@@ -3,6 +3,8 @@
 The published figures and those with oversampling differ by their settings alone.
 """
 
+import math
+
 from kacsim.items import _probes
 from kacsim.items._lazy import bkw, np, store
 
@@ -27,9 +29,7 @@ def cases(sampler, settings):
 def reduce(sampler, samples, settings):
     """Return the estimates with errors beside the exact values, at all probes and between them."""
     axis = AXIS[sampler]
-    first, time = np.array(settings[axis], float)[:, None], np.array(settings["time"], float)
-    law, unit = (bkw.density, bkw.maxwellian) if sampler == "bkw" else (bkw.fraction, np.ones_like)
-    factor = np.broadcast_to(unit(first), (first.size, time.size))
+    first, time, law, factor = _exactly(sampler, settings)
     axes = {axis: settings[axis], "time": settings["time"]}
     found = cases_by_size(sampler, settings)
     table = _probes.table(samples, found, axes, factor, law(first, time))
@@ -41,8 +41,33 @@ def reduce(sampler, samples, settings):
         law(fine_first[:, None], time), (fine_axis, "time"), "exact, along the axis"
     )
     curves = {"curve_time": against_time, f"curve_{axis}": along_axis}
+    bars = [covering(sampler, samples, settings, size) for size in found]
+    curves["covered"] = described(
+        bars, ("size", axis, "time"), "replicates whose own bar of one sigma covers the exact value"
+    )
+    curves["nominal"] = described(math.erf(math.sqrt(0.5)), (), "share of right bars that cover")
     places = {"fine_time": ("fine_time", fine_time), fine_axis: (fine_axis, fine_first)}
     return table.assign(curves).assign_coords(places)
+
+
+def _exactly(sampler, settings):
+    """Return the two axes, float64[first, 1] and [time], the law, and the unit of realizations."""
+    first = np.array(settings[AXIS[sampler]], float)[:, None]
+    time = np.array(settings["time"], float)
+    law, unit = (bkw.density, bkw.maxwellian) if sampler == "bkw" else (bkw.fraction, np.ones_like)
+    return first, time, law, np.broadcast_to(unit(first), (first.size, time.size))
+
+
+def covering(sampler, samples, settings, size):
+    """Return how many replicates' own bars of one sigma cover the exact value, int[first, time]."""
+    first, time, law, factor = _exactly(sampler, settings)
+    case = cases_by_size(sampler, settings)[size]
+    return _probes.covering(samples[case.id], case, law(first, time) / factor)
+
+
+def claims(dataset):
+    """Return nothing: the bars of these figures are counted together, in `boltzmann_numbers`."""
+    return []
 
 
 def draw(sampler, along, dataset):

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from kacsim.cases import make_case
-from kacsim.items._lazy import np, plotting, store, xr
+from kacsim.items._lazy import estimate, np, plotting, store, xr
 
 SIZES = ("published", "large")
 
@@ -61,8 +61,8 @@ def table(samples, cases, axes, factor, exact, places=None):
 
     Returns
     -------
-    xarray.Dataset: value, error, spread (of one realization), actual_error, recursion, largest
-    share [size, *axes], exact[*axes], n_draws[size]
+    xarray.Dataset: value, error, spread (of one realization), actual_error, recursion with its
+    error, largest share [size, *axes], exact[*axes], n_draws[size]
     """
     rows = []
     for size, one in cases.items():
@@ -70,9 +70,10 @@ def table(samples, cases, axes, factor, exact, places=None):
         mean, error, variance, nodes = summary(sample, one)
         total = sample["mean"].sum("replicate").values * one.n_draws
         share = sample["largest"].max("replicate").values / np.where(total > 0, total, np.nan)
-        mean, error, spread, nodes, share = (
+        nodes_error = sample["nodes"].std("replicate", ddof=1).values / math.sqrt(one.n_replicates)
+        mean, error, spread, nodes, nodes_error, share = (
             _spread_out(part, exact.shape, places and places[size])
-            for part in (mean, error, np.sqrt(variance), nodes, share)
+            for part in (mean, error, np.sqrt(variance), nodes, nodes_error, share)
         )
         rows.append(
             {
@@ -81,6 +82,7 @@ def table(samples, cases, axes, factor, exact, places=None):
                 "spread": factor * spread,
                 "actual_error": factor * mean - exact,
                 "recursion": nodes,
+                "recursion_error": nodes_error,
                 "largest_share": share,
             }
         )
@@ -90,6 +92,7 @@ def table(samples, cases, axes, factor, exact, places=None):
         "spread": "standard deviation of one realization",
         "actual_error": "estimate less the exact value",
         "recursion": "mean number of t' drawings of one realization",
+        "recursion_error": "standard error from the replicates",
         "largest_share": "share of the largest realization in the sum",
     }
     dims = ("size", *axes)
@@ -111,6 +114,67 @@ def _spread_out(part, shape, places):
     whole = np.full(shape, np.nan)
     whole[:, places] = part
     return whole
+
+
+def recursion_of(table):
+    """Return the mean recursion at one place of a table, judged by its replicates."""
+    degrees = table.attrs["settings"]["n_replicates"] - 1
+    return estimate.Mean(float(table.recursion), float(table.recursion_error), degrees)
+
+
+def covering(sample, case_, exact):
+    """Return how many replicates' own bars of one standard deviation cover the exact value.
+
+    Parameters
+    ----------
+    exact : float64[first, time], in units of the realizations
+    """
+    mean, square = sample["mean"].values, sample["mean_square"].values
+    n = case_.n_draws
+    error = np.sqrt(np.maximum(0.0, square - mean**2) / max(1, n - 1))
+    return (np.abs(mean - exact[..., None]) < error).sum(axis=-1)
+
+
+def jackknife(statistic, *samples):
+    """Return a statistic of the mean over replicates, and its error by leaving each out in turn.
+
+    Parameters
+    ----------
+    statistic : callable(mean, mean square, ...) -> float, two arguments for each sample
+    samples : (mean, mean_square), float64[replicate] each
+
+    Returns
+    -------
+    Mean
+    """
+    columns = np.stack([column for sample in samples for column in sample])
+    n = columns.shape[1]
+    left = (columns.sum(axis=1, keepdims=True) - columns) / (n - 1)
+    values = np.array([statistic(*row) for row in left.T])
+    error = math.sqrt((n - 1) / n * ((values - values.mean()) ** 2).sum())
+    return estimate.Mean(float(statistic(*columns.mean(axis=1))), error, n - 1)
+
+
+def gap(ratio):
+    """Return 1 less an estimated ratio."""
+    return estimate.Mean(1.0 - ratio.value, ratio.standard_error, ratio.degrees)
+
+
+def ratio(above, below):
+    """Return the ratio of two independent estimates, with the degrees of freedom of the first."""
+    value = above.value / below.value
+    relative = [one.standard_error / one.value for one in (above, below)]
+    return estimate.Mean(value, abs(value) * math.hypot(*relative), above.degrees)
+
+
+def moments_at(sample, i, j):
+    """Return (mean, mean_square) of a sample at one probe, float64[replicate] each."""
+    return sample["mean"].values[i, j], sample["mean_square"].values[i, j]
+
+
+def relative_deviation(mean, square):
+    """Return the standard deviation over the mean."""
+    return math.sqrt(max(0.0, square - mean**2)) / mean
 
 
 def draw_sizes(axis, dataset, x, variable, error=None, factor=1.0):

@@ -1,6 +1,6 @@
 """Fig. 10 of the Boltzmann paper: matter beyond a radius in the trap, by Algorithm 7."""
 
-from kacsim.items import _probes, _trap
+from kacsim.items import _probes, _trap, _trap_claims
 from kacsim.items._lazy import np, plotting, store, trap
 
 problems = _trap.problems
@@ -13,22 +13,44 @@ def cases(settings):
 
 def reduce(samples, settings):
     """Return estimates with errors beside the fraction of the breathing state."""
-    from scipy.stats import chi
-
     found = _trap.cases_by_size("trap_fraction", settings)
     phase = 2.0 * np.pi * np.array(settings["turn"], dtype=float)
-    size = trap.swelling(phase, settings["breathing"], settings["start_phase"])
-    exact = chi.sf(np.array(settings["radius"], dtype=float)[:, None] / np.sqrt(size), 3)
+    radius = np.array(settings["radius"], dtype=float)[:, None]
+    state = settings["breathing"], settings["start_phase"]
+    exact = trap.fraction(radius, phase, *state)
     axes = {"radius": settings["radius"], "turn": settings["turn"]}
     places = _trap.places(settings)
     table = _probes.table(samples, found, axes, np.ones(exact.shape), exact, places)
+    rarefaction = _rarefaction(samples[found["large"].id])
     return table.assign(
+        ballistic=store.described(
+            trap.fraction(radius, phase, *state, trap.free_shape(phase, *state)),
+            ("radius", "turn"),
+            "fraction without collisions",
+        ),
+        rarefaction=store.described(
+            rarefaction.value, (), "relative deviation at the last radius over that at the first"
+        ),
+        rarefaction_error=store.described(rarefaction.standard_error, (), "standard error"),
         batch=store.described(
             _trap.batches(samples, found, places, exact.shape),
             ("size", "radius", "turn"),
             "largest |z| of the replicates' means",
-        )
+        ),
     )
+
+
+def _rarefaction(sample):
+    """Return the relative deviation of a realization beyond the last radius over the first's."""
+
+    def ratio(mean, square, far_mean, far_square):
+        near = _probes.relative_deviation(mean, square)
+        return _probes.relative_deviation(far_mean, far_square) / near
+
+    return _probes.jackknife(ratio, *(_probes.moments_at(sample, i, 0) for i in (0, -1)))
+
+
+claims = _trap_claims.of_fig10
 
 
 def draw(dataset):

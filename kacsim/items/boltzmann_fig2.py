@@ -1,8 +1,10 @@
 """Fig. 2 of the Boltzmann paper: one estimation tree, in velocity and in position space."""
 
 from kacsim.cases import make_case
-from kacsim.items._lazy import np, plotting, store, xr
+from kacsim.items import _trees
+from kacsim.items._lazy import estimate, np, plotting, store, verdict, xr
 
+ROUNDING = 1e-9  # relative difference of two ways to evaluate a tree
 KEPT = ("start", "stop", "velocity", "begin", "end", "parent")
 LABEL = (0.10, 0.06)  # width and height of a label, in shares of a panel
 
@@ -37,6 +39,9 @@ def reduce(samples, settings):
             ("branch",),
             "sequence of section II, without the zeros at its end",
         ),
+        "departure": described(
+            _trees.departures(sample), ("tree",), "estimate over the product of the leaves, less 1"
+        ),
     }
     return xr.Dataset(variables)
 
@@ -55,6 +60,17 @@ def sequences(parent):
         children[above] = children.get(above, 0) + 1
         found.append(f"{found[above]}{children[above]}")
     return ["0", *found[1:]]
+
+
+def claims(dataset):
+    """Count the recorded trees whose estimate is not the product over their leaves."""
+    gaps = np.abs(dataset.departure.values)
+    wrong = estimate.Exact(float((gaps > ROUNDING).mean()))
+    evidence = (
+        f"{gaps.size} recorded trees of Algorithm 1, evaluated by the printed weights and by the "
+        f"product: largest relative difference {gaps.max():.1e}."
+    )
+    return [verdict.finding("boltzmann_17_leaves", wrong, evidence)]
 
 
 def _label_places(tree):

@@ -7,3 +7,4 @@ from kacsim.items import _bkw
 cases = functools.partial(_bkw.cases, "bkw")
 reduce = functools.partial(_bkw.reduce, "bkw")
 draw = functools.partial(_bkw.draw, "bkw", "speed")
+claims = _bkw.claims

@@ -7,3 +7,4 @@ from kacsim.items import _bkw
 cases = functools.partial(_bkw.cases, "bkw_fraction")
 reduce = functools.partial(_bkw.reduce, "bkw_fraction")
 draw = functools.partial(_bkw.draw, "bkw_fraction", "time")
+claims = _bkw.claims

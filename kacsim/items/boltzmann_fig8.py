@@ -1,8 +1,15 @@
 """Fig. 8 of the Boltzmann paper: the breathing state, density along an axis and energies."""
 
-from kacsim.items._lazy import np, plotting, store, trap, xr
+from kacsim.items._lazy import estimate, np, plotting, store, trap, verdict, xr
 
 N_TIMES, N_FINE = 181, 161
+# Where the transport of eq. (31) is tested: radii, radial and tangential velocities, phases.
+PLACES, VELOCITIES, TANGENTIAL, N_PHASES = (
+    (0.0, 0.7, 2.0, 4.0),
+    (-2.0, 0.0, 0.5, 3.0),
+    (0.0, 1.5),
+    25,
+)
 LEVELS = (1e-8, 1e-6, 1e-4, 1e-2, 0.5, 1.0)  # a factor of 2 or 100 apart, as in the text
 
 
@@ -35,6 +42,35 @@ def reduce(samples, settings):
         },
         coords={"turn": ("turn", turns), "radius": ("radius", radius)},
     )
+
+
+def claims(dataset):
+    """Test the breathing state of eq. (31): its transport, its energy and its amplitude."""
+    settings = dataset.attrs["settings"]
+    state = settings["breathing"], settings["start_phase"]
+    total = (dataset.thermal + dataset.potential + dataset.flow).values
+    square = trap.thermal_speed(2.0 * np.pi * dataset.turn.values, *state) ** 2
+    amplitude = float(square.max() - square.min()) / 2.0
+    ratios = _transported(*state)
+    evidence = f"{ratios.size} places, velocities and times."
+    worst = estimate.Exact(float(ratios.flat[np.abs(ratios - 1.0).argmax()]))
+    energy = estimate.Exact(float(total[np.abs(total - 1.0).argmax()]))
+    return [
+        verdict.finding("boltzmann_31_transport", worst, evidence, printed=1.0),
+        verdict.finding("boltzmann_31_energy", energy, printed=1.0),
+        verdict.finding(
+            "boltzmann_31_amplitude", estimate.Exact(amplitude), printed=settings["breathing"]
+        ),
+    ]
+
+
+def _transported(*state):
+    """Return f of eq. (31) over its value at the start of the free trajectory, on a grid."""
+    axes = PLACES, VELOCITIES, TANGENTIAL, np.linspace(0.0, 2.0 * np.pi, N_PHASES)
+    radius, radial, tangential, phase = np.meshgrid(*axes, indexing="ij")
+    now = trap.breathing_density(radius, radial, tangential, phase, *state)
+    start = trap.ballistic(radius, radial, tangential, phase)
+    return now / trap.breathing_density(*start, 0.0, *state)
 
 
 def draw(dataset):

@@ -1,6 +1,6 @@
 """Fig. 9 of the Boltzmann paper: f in the trap against time, at two places, by Algorithm 6."""
 
-from kacsim.items import _probes, _trap
+from kacsim.items import _probes, _trap, _trap_claims
 from kacsim.items._lazy import np, plotting, store, trap
 
 N_FINE = 601
@@ -12,7 +12,14 @@ SCALE = 1000.0
 ZOOM = (2.4, 3.6)  # omega t around 3, where the text has points of its own
 
 
-problems = _trap.problems
+def problems(settings):
+    """Return (key, sentence) of each setting that does not fit another."""
+    found = _trap.problems(settings)
+    if set(settings["claim_turn"]) - set(settings["turn"]):
+        found.append(("claim_turn", f"must be among turn, {settings['turn']}"))
+    if not found and set(settings["growth_turn"]) - set(settings["large_turn"]):
+        found.append(("growth_turn", f"must be among large_turn, {settings['large_turn']}"))
+    return found
 
 
 def cases(settings):
@@ -33,6 +40,7 @@ def reduce(samples, settings):
     places = _trap.places(settings)
     table = _probes.table(samples, found, axes, breathing, breathing, places)
     described, dims = store.described, ("radius", "turn")
+    growth = _growth(samples[found["large"].id], breathing, places["large"], settings)
     turns = np.linspace(0.0, max(settings["turn"]), N_FINE)
     fine = 2.0 * np.pi * turns
     return table.drop_vars("actual_error").assign(
@@ -53,7 +61,31 @@ def reduce(samples, settings):
             ("size", *dims),
             "largest |z| of the replicates' means",
         ),
+        growth=described(
+            growth[0], ("radius",), "variance of f at the later growth_turn over before"
+        ),
+        growth_error=described(growth[1], ("radius",), "standard error"),
     )
+
+
+def _growth(sample, factor, places, settings):
+    """Return how the variance of f changes between two times, and the error, float64[2, radius]."""
+    columns = [settings["large_turn"].index(turn) for turn in settings["growth_turn"]]
+    found = []
+    for i in range(factor.shape[0]):
+        units = [factor[i, places[column]] ** 2 for column in columns]
+
+        def ratio(mean, square, later_mean, later_square, units=units):
+            later = units[1] * (later_square - later_mean**2)
+            return later / (units[0] * (square - mean**2))
+
+        moments = (_probes.moments_at(sample, i, column) for column in columns)
+        one = _probes.jackknife(ratio, *moments)
+        found.append((one.value, one.standard_error))
+    return np.transpose(found)
+
+
+claims = _trap_claims.of_fig9
 
 
 def draw(dataset):

@@ -93,7 +93,8 @@ def test_departing_trees_are_counted():
     chosen = fabricated.settings("boltzmann_fig2", n_nodes=3)
     sample = trees()
     n = sample.sizes["branch"]
-    extra = {name: (("branch", "axis"), np.zeros((n, 3))) for name in ("begin", "end")}
+    places = np.arange(3.0 * n).reshape(n, 3)
+    extra = {"begin": (("branch", "axis"), places), "end": (("branch", "axis"), places + 1.0)}
     found = fabricated.reduced("boltzmann_fig2", chosen, lambda case: sample.assign(extra))
     (part,) = fabricated.found("boltzmann_fig2", found)["boltzmann_17_leaves"].parts
     assert part.measured.value == 0.0

@@ -114,7 +114,9 @@ def draw(dataset):
             plotting.bars(axis, edges, density, k, LABELS[k], fill=way != "derivative")
         axis.plot(middle, dataset[line], color="black", lw=1, label="quadrature")
         mean = dataset.along_exact if line == "density_exact" else dataset.along_printed
-        axis.axvline(float(mean), color="0.4", ls=":", lw=1.2, label=f"mean {float(mean):.3f}")
+        label = f"mean {float(mean):.3f}".replace("-", "−")
+        ends = [0.0, float(dataset[line].max())]
+        axis.plot([float(mean)] * 2, ends, color="0.4", ls=":", lw=1.2, label=label)
         axis.set_xlim(-4.0, 5.0)
         axis.set_xlabel("velocity along the face")
     plotting.legends_above(axes)

@@ -149,7 +149,7 @@ def test_text_that_is_no_shard_is_refused(shard, capsys):
 
 def test_samplers_of_runs_are_not_sharded():
     runs = {name for name, sampler in registry().items() if not sampler.by_replicate}
-    assert runs == {"kac_corners", "bkw_tree", "sphere_lattice"}
+    assert runs == {"kac_corners", "bkw_tree", "sphere_lattice", "circle_lattice"}
     for sampler in runs:
         case = case_of(sampler)
         assert shards.make_shards([case], 1e-12) == {}

@@ -2,11 +2,8 @@
 
 Tests without a sign (Kolmogorov-Smirnov, chi-squared) return the z >= 0 of the same two-sided
 p-value. A law test looks twice: a z beyond LIMIT, an alarm, is drawn again from another stream and
-with AGAIN times the draws, and fails the test if it is an alarm there too, on the same side. That
-happens by chance in 2.0e-9 of the runs, or 4.0e-9 where there is no sign; a bias of b standard
-errors has to pass Phi(b - 4) Phi(2 b - 4), which for b >= 4 is Phi(b - 4) to 2e-5: what a test is
-said to see, 4 standard errors, fails half of the time, and 5.7 in 95 %, as with one look.
-A negative control, a mutant, must be `caught` at the first look.
+with AGAIN times the draws, and fails the test if it is an alarm there too, on the same side. Its
+negative control, a mutant, must be `caught` at the first look. docs/statistics.md gives the rates.
 """
 
 import contextlib

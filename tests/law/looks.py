@@ -48,5 +48,5 @@ def pytest_terminal_summary(terminalreporter):
         rate = math.fsum(compare.chance(unsigned) for _, _, unsigned in zs)
         terminalreporter.write_line(
             f"{len(zs)} null z, {again} of them beyond {compare.LIMIT:g} and drawn again; "
-            f"one stays by chance in {rate:.1g} of the seeds"
+            f"one stays by chance in {rate:.2g} of the seeds"
         )

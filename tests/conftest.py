@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import smoke
+from law.looks import pytest_pyfunc_call, pytest_terminal_summary  # noqa: F401
 
 HERE = Path(__file__).parent
 SLOW = (HERE / "workflow", HERE / "browser")

@@ -8,7 +8,7 @@ from law import literal_trees as printed
 
 from kacsim.streams import new_stream
 
-N, N_MUTANT = compare.scaled(1_000_000), 100_000
+N, N_MUTANT = 1_000_000, 100_000
 Q, VELOCITY = 1.7, np.array([1.0, 0.5, 2.0])
 RATE, START, MAJORANT = 2.3, 0.4, 1.6
 # (n, kappa, omega, c_eq, eps, phi0): n kappa omega**2 / c_eq**3 = 2.7
@@ -34,8 +34,8 @@ def z_between(a, b):
 
 
 def drawn(function, *arguments, seed, name, n=N_MUTANT, mutation=printed.AS_PRINTED):
-    """Return n realizations of one of the printed algorithms."""
-    values = np.empty(n)
+    """Return realizations, scaled n, of one of the printed algorithms."""
+    values = np.empty(compare.scaled(n))
     function(values, *arguments, mutation, new_stream(seed, f"printed {name}"))
     return values
 
@@ -50,6 +50,7 @@ def z_of_leaves(nodes, time):
 
 
 def kernel_draws(kernel, arguments, n, seed, name):
+    n = compare.scaled(n)
     values, nodes = np.empty(n), np.empty(n, np.int64)
     assert kernel(values, nodes, *arguments, new_stream(seed, name))
     return values, nodes

@@ -1,6 +1,6 @@
 """The branching estimators against exact results and against the algorithms as printed.
 
-57 z tests of 6.3e-5 each: a false alarm in 0.36 % of the seeds. A z of a mean needs a finite
+A z of a mean needs a finite
 second moment, and one of a mean square a finite fourth: E_M[(F / M)**p] of BKW is finite for
 p < 6.6 at t = 0.5 and p < 4.2 at t = 1 (`bkw.tail_index`), oversampled or not (a mean of
 sub-estimates has no heavier tail); of Kac at rate * t <= 0.45 for p < 3.3; extinction with a
@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from law import compare
 from law import literal_trees as printed
-from law.compare import caught, controls, ok
+from law.compare import caught, controls, ok, scaled
 from law.realizations import (
     MAJORANT,
     RATE,
@@ -34,15 +34,15 @@ from kacsim.boltzmann import bkw, bkw_tree, extinction, literal
 @pytest.mark.parametrize("time", [0.5, 1.0])
 def test_bkw(time, seed):
     """16 z: f at three velocities and fractions from 1 to 1e-10; 2 exp(t) - 1 drawings."""
+    options = {"n_realizations": scaled(N), "seed": seed, "rms_velocity": Q}
     for velocity in (VELOCITY, 0.4, 7.0):
-        one = boltzmann.estimate_bkw(velocity, time, n_realizations=N, seed=seed, rms_velocity=Q)
+        one = boltzmann.estimate_bkw(velocity, time, **options)
         exact = bkw.density(np.linalg.norm(velocity), time, Q)
         assert ok(z_of(one, exact))
     # Var of the leaves of a tree: e**t (e**t - 1), of its drawings four times that
-    spread = 2.0 * math.sqrt(math.exp(time) * math.expm1(time) / N)
+    spread = 2.0 * math.sqrt(math.exp(time) * math.expm1(time) / scaled(N))
     assert ok((one.mean_recursion - bkw.mean_recursion(time)) / spread)
     for threshold in (0.0, 3.0, 6.0, 10.2):
-        options = {"n_realizations": N, "seed": seed, "rms_velocity": Q}
         share = boltzmann.estimate_bkw_fraction(threshold, time, **options)
         assert ok(z_of(share, bkw.fraction(threshold, time, Q)))
 
@@ -95,7 +95,7 @@ def test_oversampled_density(seed):
             one = boltzmann.estimate_bkw(
                 velocity,
                 1.0,
-                n_realizations=N,
+                n_realizations=scaled(N),
                 seed=seed,
                 rms_velocity=Q,
                 oversampling=1.5,
@@ -110,16 +110,16 @@ def test_oversampled_density(seed):
 def test_extinction(majorant, seed):
     """6 z: mean, variance and recursion at t = 0.8, alpha = 2.3, f0 = 0.4."""
     options = {"rate": RATE, "initial": START, "majorant": majorant}
-    one = boltzmann.estimate_extinction(0.8, n_realizations=N, seed=seed, **options)
+    one = boltzmann.estimate_extinction(0.8, n_realizations=scaled(N), seed=seed, **options)
     f = extinction.density(0.8, RATE, START)
     variance = extinction.variance(0.8, RATE, START, majorant)
-    spread = 2.0 * math.sqrt(math.exp(0.8 * majorant) * math.expm1(0.8 * majorant) / N)
+    spread = 2.0 * math.sqrt(math.exp(0.8 * majorant) * math.expm1(0.8 * majorant) / scaled(N))
     assert ok(z_of(one, f))
     assert ok((one.mean_recursion - extinction.mean_recursion(0.8, majorant)) / spread)
     arguments = 0.8, RATE, START, majorant
     values = drawn(printed.extinction_values, *arguments, seed=seed, name="extinction")
     # The standard error of the sample variance, from the fourth moment of the printed algorithm.
-    error = ((values - f) ** 2).std() / math.sqrt(N)
+    error = ((values - f) ** 2).std() / math.sqrt(scaled(N))
     assert ok((one.variance - variance) / error)
     for mutation in controls(printed.ONE_FOR_TWO, printed.ALWAYS_ACCEPT):
         options = {"seed": seed, "name": "extinction", "mutation": mutation}
@@ -130,13 +130,13 @@ def test_extinction(majorant, seed):
 
 @pytest.mark.parametrize("rate", [0.9, kac.RATE])
 def test_kac(rate, seed):
-    """8 z: f(v, 0.5) of the Kac equation, and with sub-estimates from t = 0.2 on."""
+    """16 z: f(v, 0.5) of the Kac equation, and with sub-estimates from t = 0.2 on."""
     for v in (-0.7, 0.1, 2.5, 4.0):
         for m in (1.0, 1.5):
             one = kac.estimate_density(
                 v,
                 0.5,
-                n_realizations=N,
+                n_realizations=scaled(N),
                 seed=seed,
                 collision_rate=rate,
                 oversampling=m,

@@ -1,6 +1,6 @@
 """E v_1**4 and E v_1**2 of every algorithm on both engines, against the exact finite-N moments.
 
-84 z tests of 6.3e-5 each: a false alarm in 0.53 % of the seeds. The parameters are awkward, so
+The parameters are awkward, so
 that no factor hides behind a 1: t = 1.7, rate 0.9, N = 7 with steps of 0.34, N = 3 and N = 2.
 """
 

@@ -1,7 +1,4 @@
-"""Injection through faces: fluxes, numbers, positions and velocities, against closed forms.
-
-100 z tests of 6.3e-5 each: a false alarm in 0.63 % of the seeds.
-"""
+"""Injection through faces: fluxes, numbers, positions and velocities, against closed forms."""
 
 import functools
 import math
@@ -21,24 +18,29 @@ DRIFTS = [(0.0, 0.0, 0.0), (0.9, -0.4, 0.0)]
 
 
 @pytest.fixture(scope="module", params=DRIFTS, ids=str)
-def injected(request, seed):
-    state = {"density": 2.3, "temperature": TEMPERATURE, "drift": request.param}
-    n_steps = 40_000
-    parts = techniques.inject(**state, half_width=BOX, step=STEP, n_steps=n_steps, seed=seed)
-    return request.param, n_steps, parts
+def injected(request):
+    """Return a drift, and seed -> (number of steps, what has come in), kept."""
+
+    def draw(seed):
+        state = {"density": 2.3, "temperature": TEMPERATURE, "drift": request.param}
+        size = {"n_steps": compare.scaled(40_000), "seed": seed}
+        return size["n_steps"], techniques.inject(**state, half_width=BOX, step=STEP, **size)
+
+    return request.param, functools.cache(draw)
 
 
 def inward(drift, face):
     return (1.0 - 2.0 * (face % 2)) * drift[face // 2]
 
 
-def test_numbers_are_poisson_with_the_flux(injected):
+def test_numbers_are_poisson_with_the_flux(injected, seed):
     """Null: Poisson with F_j dt at every face. 24 z with both drifts.
 
     Statistics: chi-squared of the numbers per step, and the mean: 4e4 steps see 1.5 %. Mutants: the
     printed limits L_y twice at the faces normal to x, and the rate F_j.
     """
-    drift, n_steps, (face, _, _, step) = injected
+    drift, drawn = injected
+    n_steps, (face, _, _, step) = drawn(seed)
     means = flux.face_rates(2.3, TEMPERATURE, drift, BOX) * STEP
     for j in range(len(FACES)):
         numbers = np.bincount(step[face == j], minlength=n_steps)
@@ -53,13 +55,14 @@ def test_numbers_are_poisson_with_the_flux(injected):
         assert compare.caught((numbers.mean() - means[j] / STEP) / spread)
 
 
-def test_velocities_are_weighted_by_the_normal_one(injected):
+def test_velocities_are_weighted_by_the_normal_one(injected, seed):
     """Null: v f(v) normal to the face, f tangential, positions uniform. 42 z with both drifts.
 
     Statistics: Kolmogorov-Smirnov and moments, three of them pooled over the faces. Mutants:
     velocities drawn from f restricted to inward ones, and from v f(v) without the drift.
     """
-    drift, _, (face, position, velocity, _) = injected
+    drift, drawn = injected
+    _, (face, position, velocity, _) = drawn(seed)
     rng = np.random.default_rng(5)
     pooled = []
     for j in range(len(FACES)):
@@ -97,11 +100,10 @@ def test_the_gas_outside_gives_the_same(sampler, seed):
     24 z: numbers and v_n at six faces. Mutant: the printed limits.
     """
     state = {"density": 2.3, "temperature": TEMPERATURE, "drift": list(DRIFTS[1])}
-    case = make_case(
-        sampler, **state, half_width=BOX, step=STEP, n_draws=5000, n_replicates=4, seed=seed
-    )
+    size = {"n_draws": compare.scaled(20_000) // 4, "n_replicates": 4, "seed": seed}
+    case = make_case(sampler, **state, half_width=BOX, step=STEP, **size)
     sums = run(case)["sum"][1].sum(axis=0)
-    means = flux.face_rates(*state.values(), BOX) * STEP * 20_000
+    means = flux.face_rates(*state.values(), BOX) * STEP * 4 * size["n_draws"]
     for j in range(len(FACES)):
         count, first, square = sums[j, :3]
         assert compare.ok((count - means[j]) / math.sqrt(means[j]))
@@ -121,9 +123,8 @@ def test_particles_are_chosen_by_their_flux(weighted, seed):
     v, w = rng.normal(0.3, 1.3, (50, 3)), 0.5 + rng.random(50)
     normal = np.array([0.5, -1.2, 0.7])
     weights = w if weighted else None
-    chosen = techniques.inject_particles(
-        v, normal=normal, n_draws=200_000, seed=seed, weights=weights
-    )
+    size = {"n_draws": compare.scaled(200_000), "seed": seed}
+    chosen = techniques.inject_particles(v, normal=normal, weights=weights, **size)
     lengths = np.maximum(0.0, v @ normal) * (w if weighted else 1.0)
     counts = np.bincount(chosen, minlength=50)
     inside = lengths > 0.0

@@ -1,7 +1,4 @@
-"""Integration on lattices and with points, against volumes and areas in closed form.
-
-14 z tests of 6.3e-5 each: a false alarm in 0.09 % of the seeds.
-"""
+"""Integration on lattices and with points, against volumes and areas in closed form."""
 
 import math
 
@@ -22,7 +19,7 @@ def test_random_points_find_the_volume(dimension, seed):
 
     Mutant: one dimension less.
     """
-    share, error = techniques.sphere_volume(dimension, 1_000_000, seed=seed)
+    share, error = techniques.sphere_volume(dimension, compare.scaled(1_000_000), seed=seed)
     assert compare.ok((share - exact.ball_volume(dimension)) / error)
     assert compare.caught((share - exact.ball_volume(dimension - 1)) / error)
 
@@ -34,18 +31,11 @@ def test_errors_of_the_generators(generator, seed):
     The bad generators have not run out yet; the congruential one is too even already, and so is the
     Sobol sequence: they are the mutants.
     """
-    case = make_case(
-        "sphere_points",
-        generator=generator,
-        dimension=[4],
-        n_points=[2**14],
-        n_draws=1,
-        n_replicates=60,
-        seed=seed,
-    )
+    size = {"n_draws": 1, "n_replicates": compare.scaled(60), "seed": seed}
+    case = make_case("sphere_points", generator=generator, dimension=[4], n_points=[2**14], **size)
     share = run(case)["inside"][1][0, :, 0] / 2**14
     squares = (share / exact.ball_volume(4) - 1.0) ** 2 * 2**14 / exact.point_error(4) ** 2
-    z = (squares.mean() - 1.0) / math.sqrt(2.0 / 60)
+    z = (squares.mean() - 1.0) / math.sqrt(2.0 / squares.size)
     if generator == "sobol":
         assert squares.mean() < 0.4
     elif generator != "congruential":
@@ -87,9 +77,8 @@ def test_area_of_exercise_3(exponent, seed):
 
     Mutant: the area of another exponent.
     """
-    case = make_case(
-        "area", exponent=exponent, n_points=[50, 2000], n_draws=1, n_replicates=4000, seed=seed
-    )
+    size = {"n_draws": 1, "n_replicates": compare.scaled(4000), "seed": seed}
+    case = make_case("area", exponent=exponent, n_points=[50, 2000], **size)
     found = run(case)["estimate"][1]
     for k, way in enumerate(("hits", "heights")):
         values = found[k, :, 1]
@@ -101,6 +90,7 @@ def test_area_of_exercise_3(exponent, seed):
 
 def test_any_function(seed):
     """1 z: the integral of exp over [-1, 2]. Mutant: over [-1, 1.9]."""
-    value, error = techniques.integrate(np.exp, -1.0, 2.0, n_points=300_000, seed=seed)
+    size = {"n_points": compare.scaled(300_000), "seed": seed}
+    value, error = techniques.integrate(np.exp, -1.0, 2.0, **size)
     assert compare.ok((value - (math.exp(2) - math.exp(-1))) / error)
     assert compare.caught((value - (math.exp(1.9) - math.exp(-1))) / error)

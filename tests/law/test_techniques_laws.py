@@ -1,7 +1,4 @@
-"""Tables, rejection and the Gamma identity against the laws that they stand for.
-
-39 z tests of 6.3e-5 each: a false alarm in 0.25 % of the seeds.
-"""
+"""Tables, rejection and the Gamma identity against the laws that they stand for."""
 
 import math
 
@@ -20,8 +17,8 @@ from kacsim.variates import uniform
 N = 1_000_000
 
 
-def through(table, n, seed, name):
-    values = np.empty(n)
+def through(table, seed, name):
+    values = np.empty(compare.scaled(N))
     inverse_transform.through_table(values, table, new_stream(seed, name))
     return values
 
@@ -44,7 +41,7 @@ def test_a_table_has_its_own_law(law, n_table, seed):
     which few intervals miss, and a table equally spaced in v.
     """
     table = inverse_transform.law_table(law, n_table)
-    values = through(table, N, seed, f"table {law} {n_table}")
+    values = through(table, seed, f"table {law} {n_table}")
     steps = np.linspace(0.0, 1.0, n_table + 1)
     assert compare.ok(compare.of_distribution(values, lambda v: np.interp(v, table, steps)))
     mean = 0.5 * (table[1:] + table[:-1]).mean()
@@ -79,12 +76,13 @@ def test_rejection_has_the_law_and_the_cost(law, envelope, seed):
 
     Mutants: proposals all accepted, and the cost of a density twice as high.
     """
-    values, arguments = np.empty(N), rejection.arguments(law, envelope)
+    values, arguments = np.empty(compare.scaled(N)), rejection.arguments(law, envelope)
     trials = rejection.draw(values, *arguments, new_stream(seed, f"rejection {law} {envelope}"))
     area = exact.envelope_area(law, envelope)
-    cost = (trials / N - area) / math.sqrt(area * (area - 1.0) / N)
+    mean = trials / values.size
+    cost = (mean - area) / math.sqrt(area * (area - 1.0) / values.size)
     assert compare.ok(cost)
-    assert compare.caught((trials / N - area / 2) / math.sqrt(area * area / N))
+    assert compare.caught((mean - area / 2) / math.sqrt(area * area / values.size))
     assert compare.ok(compare.of_distribution(values, exact.CUMULATIVES[law]))
     square = 1.5 if law == "kac_initial" else 0.5
     assert compare.ok(compare.of_mean(values**2, square))
@@ -95,7 +93,7 @@ def test_rejection_has_the_law_and_the_cost(law, envelope, seed):
 
 def test_the_three_ways_to_draw_f0_are_one_law(seed):
     """Null: Gamma identity, rejection and f0. 4 z. Mutants: a table of 64, and an energy less."""
-    values, other = np.empty(N), np.empty(N)
+    values, other = np.empty((2, compare.scaled(N)))
     identity.draw(values, new_stream(seed, "identity"))
     rejection.draw(other, *rejection.arguments("kac_initial", "closer"), new_stream(seed, "other"))
     law = exact.CUMULATIVES["kac_initial"]
@@ -103,14 +101,14 @@ def test_the_three_ways_to_draw_f0_are_one_law(seed):
     assert compare.ok(compare.of_distributions(values, other))
     assert compare.ok(compare.of_energy(values))
     assert compare.ok(compare.of_fourth(values, 3.75))
-    coarse = through(inverse_transform.law_table("kac_initial", 64), N, seed, "coarse")
+    coarse = through(inverse_transform.law_table("kac_initial", 64), seed, "coarse")
     assert compare.caught(compare.of_distributions(values, coarse))
     assert compare.caught(compare.of_distribution(0.99 * values, law))
 
 
 def test_exercise_1(seed):
     """Null: p(x) = k exp(-k x), k = 2.7. 2 z. Mutant: log(1 - y) of another rate."""
-    x = techniques.draw_by_inversion("exponential", n_draws=N, seed=seed, rate=2.7)
+    x = techniques.draw_by_inversion("exponential", n_draws=compare.scaled(N), seed=seed, rate=2.7)
     assert compare.ok(compare.of_distribution(x, lambda v: -np.expm1(-2.7 * v)))
     assert compare.ok(compare.of_mean(x, 1.0 / 2.7))
     assert compare.caught(compare.of_mean(x, 1.0 / 2.75))
@@ -122,7 +120,7 @@ def test_closed_inverses_have_their_laws(law, seed):
 
     Mutant: the uniforms themselves a hundredth too large.
     """
-    values = techniques.draw_by_inversion(law, n_draws=N, seed=seed)
+    values = techniques.draw_by_inversion(law, n_draws=compare.scaled(N), seed=seed)
     cumulative = exact.CUMULATIVES[law]
     assert compare.ok(compare.of_distribution(values, cumulative))
     wrong = 1.01 * cumulative(values)
@@ -136,14 +134,14 @@ def test_any_law_by_table_and_by_rejection(seed):
         return special.ndtr((v - 0.3) / 1.3)
 
     table = techniques.tabulate(law, -8.0, 8.0, 4001)
-    drawn = techniques.draw_from_table(table, n_draws=100_000, seed=seed)
+    size = {"n_draws": compare.scaled(100_000), "seed": seed}
+    drawn = techniques.draw_from_table(table, **size)
     assert compare.ok(compare.of_distribution(drawn, law))
     values, used = techniques.draw_by_rejection(
         lambda v: np.exp(-((v - 0.3) ** 2) / 3.38),
         lambda v: np.exp(0.32 * 1.69 - 0.8 * np.abs(v - 0.3)),
         lambda u: 0.3 + np.where(u < 0.5, np.log(2 * u + 1e-300), -np.log(2 - 2 * u)) / 0.8,
-        n_draws=100_000,
-        seed=seed,
+        **size,
     )
     assert compare.ok(compare.of_distribution(values, law))
     trials = used / 2

@@ -1,8 +1,6 @@
-"""TVN of an exact sampler: its mean is the noise floor of exact multinomials.
+"""TVN of an exact sampler: its mean is the noise floor of exact multinomials."""
 
-4 z tests of 6.3e-5 each: a false alarm in 0.03 % of the seeds.
-"""
-
+import functools
 import math
 
 import numpy as np
@@ -35,8 +33,9 @@ def compared(counts, width):
 
 
 @pytest.fixture(scope="module")
-def exact_counts(seed):
-    return counts_of(TREE, 100, seed)
+def exact_counts():
+    """Return seed -> counts of exact draws, kept."""
+    return functools.cache(lambda seed: counts_of(TREE, compare.scaled(100), seed))
 
 
 @pytest.fixture(scope="module")
@@ -45,13 +44,13 @@ def nanbu_counts(seed):
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_tvn_of_exact_draws_is_the_noise_floor(width, exact_counts, nanbu_counts):
+def test_tvn_of_exact_draws_is_the_noise_floor(width, exact_counts, nanbu_counts, seed):
     """Null: E[TVN] of 1e5 exact multinomial draws. Statistic: z of 100 replicates' mean, their
     spread as error: it sees 2 % of the floor at width 0.1, i.e. 0.0003.
 
     Mutant: Nanbu with the large step, at the published TVN of about 0.048.
     """
-    tvn, expected = compared(exact_counts, width)
+    tvn, expected = compared(exact_counts(seed), width)
     floor = histogram.noise_floor(expected, 100_000)
     assert compare.ok(compare.of_mean(tvn, floor))
     assert compare.caught(compare.of_mean(tvn, 1.3 * floor))
@@ -59,17 +58,17 @@ def test_tvn_of_exact_draws_is_the_noise_floor(width, exact_counts, nanbu_counts
     assert compare.caught(compare.of_mean(mutant, floor))
 
 
-def test_spread_of_tvn(exact_counts):
+def test_spread_of_tvn(exact_counts, seed):
     """The predicted spread leaves correlations out: 100 replicates know theirs to 7 %."""
-    tvn, expected = compared(exact_counts, 0.1)
+    tvn, expected = compared(exact_counts(seed), 0.1)
     assert 0.65 < tvn.std(ddof=1) / histogram.noise_spread(expected, 100_000) < 1.35
     assert not 0.65 < 0.5 * tvn.std(ddof=1) / histogram.noise_spread(expected, 100_000) < 1.35
 
 
-def test_counts_follow_eq_8(exact_counts, nanbu_counts):
+def test_counts_follow_eq_8(exact_counts, nanbu_counts, seed):
     """Null: eq. (8) in the fine bins. Statistic: chi-squared of 1e7 draws, 2 % in a central bin."""
     expected = histogram.probabilities(lambda v: kac.cumulative(v, 2.0), histogram.fine_edges())
-    assert compare.ok(compare.of_counts(exact_counts.sum(axis=0), expected))
+    assert compare.ok(compare.of_counts(exact_counts(seed).sum(axis=0), expected))
     assert compare.caught(compare.of_counts(nanbu_counts.sum(axis=0), expected))
 
 

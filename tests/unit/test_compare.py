@@ -1,7 +1,4 @@
-"""The statistics of the law tests: standard normal under the null, large under a mutant.
-
-20 z tests of 6.3e-5 each: a false alarm in 0.13 % of the seeds.
-"""
+"""The statistics of the law tests: standard normal under the null, large under a mutant."""
 
 import numpy as np
 import pytest
@@ -48,7 +45,7 @@ def test_z_is_standard_normal_under_the_null(name, seed):
     Kolmogorov-Smirnov p-values are asymptotic, hence a little too large at 2000 draws.
     """
     rng = np.random.default_rng([seed, 1])
-    z = np.array([STATISTICS[name](rng, 0.0) for _ in range(REPEATS)])
+    z = np.array([STATISTICS[name](rng, 0.0) for _ in range(compare.scaled(REPEATS))])
     p = 2.0 * special.ndtr(-np.abs(z))
     assert compare.ok(compare.of_mean(p, 0.5))
     assert compare.ok(compare.of_mean((p - 0.5) ** 2, 1.0 / 12.0))
@@ -69,7 +66,7 @@ def test_of_p_inverts_the_normal_law(z):
 def test_of_fourth_has_the_mean_of_the_fourth_power(seed):
     """The control variate changes the noise, not the mean: exact 15/4 under f0, 1e6 draws."""
     rng = np.random.default_rng([seed, 3])
-    v = np.sqrt(stats.gamma.rvs(1.5, size=1_000_000, random_state=rng))
+    v = np.sqrt(stats.gamma.rvs(1.5, size=compare.scaled(1_000_000), random_state=rng))
     assert compare.ok(compare.of_fourth(v, 15.0 / 4.0))
     assert compare.ok(compare.of_mean(v**4, 15.0 / 4.0))
     assert compare.caught(compare.of_fourth(v, 3.80))

@@ -131,6 +131,7 @@ def test_replicates_are_uncorrelated(seed):
 
     Negative control: a stream against itself, as if the replicate did not enter.
     """
-    first, second = (outputs(streams.new_stream(seed, "case", k), 50_000) for k in range(2))
+    n = compare.scaled(50_000)
+    first, second = (outputs(streams.new_stream(seed, "case", k), n) for k in range(2))
     assert compare.ok(correlation_z(first, second))
     assert compare.caught(correlation_z(first, first))

@@ -1,7 +1,4 @@
-"""The law of every variate: moments, Kolmogorov-Smirnov, fine bins, and the ziggurats' tails.
-
-45 z tests of 6.3e-5 each: a false alarm in 0.28 % of the seeds.
-"""
+"""The law of every variate: moments, Kolmogorov-Smirnov, fine bins, and the ziggurats' tails."""
 
 import math
 
@@ -35,8 +32,8 @@ def filler(variate, width=1):
     return fill_one if width == 1 else fill_two
 
 
-def draws(variate, name, seed, n=N, width=1):
-    out = np.empty((n, width))
+def draws(variate, name, seed, width=1):
+    out = np.empty((compare.scaled(N), width))
     filler(variate, width)(out, new_stream(seed, f"test_variates {name}"))
     return out[:, 0] if width == 1 else out
 
@@ -136,13 +133,13 @@ def test_probabilities(name, seed):
 @pytest.mark.parametrize(("p", "failures"), [(1.0, 0), (1e-12, None)])
 def test_geometric_extremes(p, failures, seed):
     """Certain success never fails first; a rare one fails about 1 / p times."""
-    stream = new_stream(seed, "test_variates extremes")
-    values = [variates.failures_before_success(variates.gap_scale(p), stream) for _ in range(1000)]
+    stream, n = new_stream(seed, "test_variates extremes"), compare.scaled(1000)
+    values = [variates.failures_before_success(variates.gap_scale(p), stream) for _ in range(n)]
     if failures is None:
         assert compare.ok(compare.of_mean(np.array(values) * p, 1.0))
         assert min(values) > 1e6
     else:
-        assert values == [failures] * 1000
+        assert values == [failures] * n
 
 
 def test_pairs_are_uniform_ordered_pairs(seed):
@@ -198,12 +195,12 @@ LEVELS = {
 }
 
 
-def bin_counts(level, power, stream):
-    """Return the counts of P(X > x)**power in equal bins, FINE draws of x."""
+def bin_counts(level, power, n, stream):
+    """Return the counts of P(X > x)**power in equal bins, n draws of x."""
 
     @numba.njit
     def count(counts, stream):
-        for _ in range(FINE):
+        for _ in range(n):
             counts[min(int(level(stream) ** power * N_BINS), N_BINS - 1)] += 1
 
     counts = np.zeros(N_BINS, np.int64)
@@ -217,10 +214,10 @@ def test_distribution_in_fine_bins(name, seed):
 
     2e7 draws see 1.5 % in one bin and 0.3 % in all of them. Mutant: a power of 1.004.
     """
-    stream = new_stream(seed, f"test_variates fine {name}")
+    stream, n = new_stream(seed, f"test_variates fine {name}"), compare.scaled(FINE)
     expected = np.full(N_BINS, 1.0 / N_BINS)
-    assert compare.ok(compare.of_counts(bin_counts(LEVELS[name], 1.0, stream), expected))
-    assert compare.caught(compare.of_counts(bin_counts(LEVELS[name], 1.004, stream), expected))
+    assert compare.ok(compare.of_counts(bin_counts(LEVELS[name], 1.0, n, stream), expected))
+    assert compare.caught(compare.of_counts(bin_counts(LEVELS[name], 1.004, n, stream), expected))
 
 
 def tail_of(variate, least, n, stream):
@@ -250,7 +247,7 @@ def test_ziggurat_tail(name, least, law, seed):
     Statistics: binomial z and Kolmogorov-Smirnov. 4e7 draws leave 18000 and 10000 in the tail:
     they see 3 and 4 % of its probability. Mutants: a share 10 % too large, excesses 20 % too long.
     """
-    n, share = 2 * FINE, law.sf(least)
+    n, share = compare.scaled(2 * FINE), law.sf(least)
     tail = tail_of(
         getattr(variates, name), least, n, new_stream(seed, f"test_variates tail {name}")
     )

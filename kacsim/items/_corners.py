@@ -11,15 +11,18 @@ def case(settings):
     return make_case("kac_corners", n_replicates=1, **{key: settings[key] for key in KEYS})
 
 
-def step_counts(sample, rounding):
+def step_counts(sample, settings):
     """Return (dict of counts of the steps of all recorded runs, changes of D at repeated pairs).
 
+    Of the steps before D falls below the tolerance: the smaller D, the more digits are lost in it.
     A step counts as one that left D as it was, or changed it, by whether its relative change goes
     beyond rounding.
     """
+    rounding = settings["rounding"]
     diameter, same = sample["diameter"].values, sample["same_pair"].values.astype(bool)
     change = diameter[:, 1:] / diameter[:, :-1] - 1.0
-    valid, repeated = np.isfinite(change), same[:, 1:]
+    valid, repeated = diameter[:, :-1] >= settings["tolerance"], same[:, 1:]
+    valid &= np.isfinite(change)
     counts = {
         "n_steps": (valid, "steps of all runs compared"),
         "n_growing": (valid & (change > rounding), "steps that raised D"),

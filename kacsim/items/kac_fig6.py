@@ -27,7 +27,7 @@ def reduce(samples, settings):
     corner = sample["corner"].values[:, :, 0]
     described, path = store.described, ("time",)
     start = math.sqrt(2.0 * MEAN_ENERGY * settings["n_particles"])  # of two corners
-    counts, _ = _corners.step_counts(sample, settings["rounding"])
+    counts, _ = _corners.step_counts(sample, settings)
     diameter = sample["diameter"].values[0, : corner.shape[0] - 1]
     return xr.Dataset(
         _sandwich(sample, settings)

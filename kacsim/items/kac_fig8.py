@@ -36,7 +36,7 @@ def reduce(samples, settings):
     corner = np.stack([*corner, _corners.rotate(corner[0], PAIR, angles[1])])
     radius = float(first.radius)
     length = _lengths(corner / radius)
-    counts, changes = _corners.step_counts(sample, settings["rounding"])
+    counts, changes = _corners.step_counts(sample, settings)
     described, each = store.described, ("stage", "two")
     return xr.Dataset(
         {

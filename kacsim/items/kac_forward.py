@@ -122,14 +122,14 @@ def draw(dataset):
     figure, (axis,) = plotting.panels(1, 1, height=2.8)
     edges = dataset.edge.values
     for k, way in enumerate(WAYS):
-        label = f"{LABELS[k]}, E $v^4$ = {plotting.with_error(_moment(dataset, way))}"
+        label = f"{LABELS[k]}: E $v^4$ = {plotting.with_error(_moment(dataset, way))}"
         plotting.bars(axis, edges, dataset.density.sel(way=way), k, label, fill=k == 0)
     n = dataset.attrs["settings"]["n_particles"]
     axis.stairs(
         dataset.density_exact, edges, baseline=None, color="black", lw=1, label=f"exact, $N$ = {n}"
     )
     axis.set_xlabel("$|v_1|$")
-    axis.set_ylim(0.9 * float(dataset.density_exact.min()), None)
+    axis.set_ylim(bottom=0.0)
     plotting.density_axis(axis)
-    plotting.legend_on_top(axis)
+    plotting.legend_on_top(axis, ncols=1)
     return figure

@@ -65,7 +65,8 @@ def _free(settings, n_particles):
 
 
 def _case(settings, walk, n_particles):
-    n_draws = settings["single_n_draws" if walk == SINGLE else "n_draws"]
+    fewer = "few_n_draws" if n_particles < settings["n_particles"] else "n_draws"
+    n_draws = settings["single_n_draws" if walk == SINGLE else fewer]
     named = _named(settings, n_particles).values()
     free = [] if walk == SINGLE else _free(settings, n_particles)
     # Of many particles only the few steps of large tolerances are affordable.
@@ -107,7 +108,7 @@ def cases(settings):
 
 def reduce(samples, settings):
     """Return a row per reading, curves with a free tolerance, and what the text's numbers imply."""
-    families = _families(settings)
+    families, published = _families(settings), _published()
     rows, curves, free = [], [], []
     for (walk, n), case in families.items():
         sample = samples[case.id]
@@ -121,7 +122,7 @@ def reduce(samples, settings):
                 if e in places
             ]
             curves.append(table)
-            free.append(_at_mean(table, settings["published_mean"]))
+            free.append(_at_mean(table, published[0]))
     single = _case(settings, SINGLE, settings["n_particles"])
     sample = samples[single.id]
     for name, e in _named(settings, settings["n_particles"]).items():
@@ -132,7 +133,6 @@ def reduce(samples, settings):
     for name, count in COUNTS.items():
         key = ("printed", settings["n_particles"], name, "ε, E = 3N/2")
         rows.append((key, _of_draws(count(times, settings["n_particles"]))))
-    published = _published()
     return xr.Dataset(
         _reading_variables(rows, published)
         | _curve_variables(families, curves, free, published)
@@ -330,10 +330,11 @@ def _draw_plane(axis, dataset):
     axis.plot([published] * 2, spreads, color=plotting.COLOURS[1], lw=3, zorder=5)
     style = {"marker": "*", "ms": 11, "ls": "", "color": plotting.COLOURS[1], "zorder": 5}
     axis.plot(published, spreads.mean(), label="published", **style)
-    axis.set(xscale="log", yscale="log", xlim=(60, 9000), ylim=(20, 1200))
+    axis.set(xscale="log", yscale="log", xlim=(90, 9000), ylim=(20, 1200))
+    axis.set_xticks([100, 300, 1000, 3000], ["100", "300", "1000", "3000"], minor=False)
+    axis.xaxis.set_minor_formatter("")
     axis.set_xlabel("mean coupling time in steps")
     axis.set_ylabel("standard deviation in steps")
-    plotting.plain_log(axis.xaxis)
     plotting.plain_log(axis.yaxis)
     plotting.legend_on_top(axis)
 
@@ -354,7 +355,7 @@ def _draw_ranges(axis, dataset):
         names.append(label)
     axis.set_yticks(range(len(names)), names, fontsize=7)
     axis.set_ylim(len(names) - 0.5, -0.6)
-    axis.set_xlabel("mean and range of 100 000 draws, in steps")
+    axis.set_xlabel("mean and range in steps")
 
 
 def _shown(dataset):

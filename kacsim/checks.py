@@ -117,6 +117,12 @@ def rising(name, values):
         yield Problem(name, values, "must grow from each value to the next")
 
 
+def falling(name, values):
+    """Yield a problem unless the values fall."""
+    if any(b >= a for a, b in itertools.pairwise(values)):
+        yield Problem(name, values, "must fall from each value to the next")
+
+
 def amount(*, n_draws, n_replicates, seed, **_):
     """Yield the problems of the size and the seed of a case."""
     yield from count("n_draws", n_draws)

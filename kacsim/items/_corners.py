@@ -1,7 +1,7 @@
 """What Figs. 6 to 8 of the Kac paper share: recorded runs of the corner points."""
 
 from kacsim.cases import make_case
-from kacsim.items._lazy import np, plotting
+from kacsim.items._lazy import np, plotting, store
 
 KEYS = ("n_particles", "tolerance", "n_draws", "seed")
 
@@ -9,6 +9,36 @@ KEYS = ("n_particles", "tolerance", "n_draws", "seed")
 def case(settings):
     """Return the case of recorded runs."""
     return make_case("kac_corners", n_replicates=1, **{key: settings[key] for key in KEYS})
+
+
+def step_counts(sample, settings):
+    """Return (dict of counts of the steps of all recorded runs, changes of D at repeated pairs).
+
+    Of the steps before D falls below the tolerance: the smaller D, the more digits are lost in it.
+    A step counts as one that left D as it was, or changed it, by whether its relative change goes
+    beyond rounding.
+    """
+    rounding = settings["rounding"]
+    diameter, same = sample["diameter"].values, sample["same_pair"].values.astype(bool)
+    change = diameter[:, 1:] / diameter[:, :-1] - 1.0
+    valid, repeated = diameter[:, :-1] >= settings["tolerance"], same[:, 1:]
+    valid &= np.isfinite(change)
+    counts = {
+        "n_steps": (valid, "steps of all runs compared"),
+        "n_growing": (valid & (change > rounding), "steps that raised D"),
+        "n_repeated": (valid & repeated, "steps that repeat a pair"),
+        "n_repeated_changed": (
+            valid & repeated & (np.abs(change) > rounding),
+            "such steps that changed D",
+        ),
+        "n_other": (valid & ~repeated, "steps with another pair"),
+        "n_other_kept": (
+            valid & ~repeated & (change > -rounding),
+            "such steps that left D as it was",
+        ),
+    }
+    found = {name: store.described(which.sum(), (), text) for name, (which, text) in counts.items()}
+    return found, np.abs(change[valid & repeated])
 
 
 def walk(shares, sample, n_steps):

@@ -1,11 +1,15 @@
 """Fig. 7 of the Kac paper: all points of the octant map to one arc, from a real run."""
 
 from kacsim.items import _corners
-from kacsim.items._lazy import np, store, xr
+from kacsim.items._lazy import estimate, np, store, verdict, xr
 
 PAIR = (1, 2)  # of the text
 ORDER = (1, 2, 3)  # of the particles along x, y, z
 POINT, IMAGE = ("s", 1, 60), ("o", 2, 60)  # marker, place among the colours, size
+
+
+EDGE = 40  # points along an edge of the lattice on the octant, and angles
+ROUNDING = 1e-12  # over the radius
 
 
 def cases(settings):
@@ -32,7 +36,70 @@ def reduce(samples, settings):
             "run_pair": described(pairs[0], ("two",), "labels of the pair in the run"),
             "angle": described(np.degrees(angles[0]), (), "angle", "degree"),
         }
+        | _lattice(angles[0])
+        | _identities()
     )
+
+
+def _lattice(angle):
+    """Return how many points of a lattice on the octant a step takes off the arc.
+
+    On it v_1 cos(angle) = v_2 sin(angle), and no coordinate is negative.
+    """
+    places = range(EDGE + 1)
+    shares = [(i, j, EDGE - i - j) for i in places for j in range(EDGE + 1 - i)]
+    after = _corners.rotate(np.sqrt(np.array(shares) / EDGE), PAIR, angle)
+    beside = np.abs(after[:, 0] * np.cos(angle) - after[:, 1] * np.sin(angle)) > ROUNDING
+    off = beside | (after < -ROUNDING).any(axis=1)
+    described = store.described
+    return {
+        "n_lattice": described(len(shares), (), "points of the lattice"),
+        "n_off_arc": described(off.sum(), (), "points whose image is not on the arc"),
+    }
+
+
+def _identities():
+    """Return how often eq. (12) fails, and how often eqs. (13) and (14) leave the octant.
+
+    Over angles in the middle of equal parts of (0, 2 pi), and v_i, v_j on the unit circle.
+    """
+    angle = 2.0 * np.pi * (np.arange(4 * EDGE) + 0.5) / (4 * EDGE)
+    turned = angle[:EDGE, None]
+    v_i, v_j = np.sin(turned), np.cos(turned)
+    rotated = v_i * np.cos(angle) + v_j * np.sin(angle)
+    fails = np.abs(rotated - np.sin(angle + np.arctan(v_i / v_j))) > ROUNDING
+    described = store.described
+    return {
+        "n_angles": described(fails.size, (), "velocities and angles looked at"),
+        "n_unequal": described(fails.sum(), (), "those at which eq. (12) fails"),
+        "share_outside": described(
+            (np.sin(angle) < 0.0).mean(), (), "angles in (0, 2 pi) that leave the octant"
+        ),
+    }
+
+
+def claims(dataset):
+    """Count what contradicts the text on the first step."""
+    points, angles = int(dataset.n_lattice), int(dataset.n_angles)
+    exact = estimate.Exact
+    return [
+        verdict.finding(
+            "kac_fig7_arc",
+            exact(int(dataset.n_off_arc) / points),
+            f"{points} points of a lattice on the octant.",
+        ),
+        verdict.finding(
+            "kac_52_identity",
+            exact(int(dataset.n_unequal) / angles),
+            f"{angles} pairs of velocities and angles.",
+        ),
+        verdict.finding(
+            "kac_52_range",
+            exact(float(dataset.share_outside)),
+            "Share of the angles. The distances of corner points are the same with either range, "
+            "because all of them take the same sign.",
+        ),
+    ]
 
 
 def draw(dataset):

@@ -1,10 +1,24 @@
 """Fig. 8 of the Kac paper: the arc of Fig. 7 maps to a shorter arc, from the same run."""
 
 from kacsim.items import _corners, kac_fig7
-from kacsim.items._lazy import np, store, xr
+from kacsim.items._lazy import estimate, np, store, verdict, xr
 
 PAIR = (3, 1)  # of the text
 AXES = (3, 1, 2)  # along x, y, z: as in Fig. 7 the pair's plane is the horizontal one
+
+
+COUNTS = (
+    "n_repeated",
+    "n_repeated_changed",
+    "n_other",
+    "n_other_kept",
+    "n_arcs",
+    "n_longer",
+    "n_chords",
+    "n_far",
+)
+N_ANGLES = 200  # angles, and chords, that are looked at
+ROUNDING = 1e-12
 
 
 def cases(settings):
@@ -14,14 +28,15 @@ def cases(settings):
 
 def reduce(samples, settings):
     """Return points and corners after the step of Fig. 7 and after the next with another pair."""
-    angles, pairs = _corners.two_steps(samples[_corners.case(settings).id])
+    sample = samples[_corners.case(settings).id]
+    angles, pairs = _corners.two_steps(sample)
     first = kac_fig7.reduce(samples, settings)
     points, corner = ([first[name].values] for name in ("after", "corner"))
     points.append(_corners.rotate(points[0], PAIR, angles[1]))
     corner = np.stack([*corner, _corners.rotate(corner[0], PAIR, angles[1])])
     radius = float(first.radius)
-    cosines = np.einsum("sip,sjp->sij", corner, corner) / radius**2
-    length = np.arccos(np.clip(cosines.min(axis=(1, 2)), -1.0, 1.0))
+    length = _lengths(corner / radius)
+    counts, changes = _corners.step_counts(sample, settings)
     described, each = store.described, ("stage", "two")
     return xr.Dataset(
         {
@@ -32,8 +47,72 @@ def reduce(samples, settings):
             "run_pair": described(pairs, each, "labels of the pair in the run"),
             "angle": described(np.degrees(angles), ("stage",), "angle", "degree"),
             "radius": described(radius, (), "radius of the sphere"),
+            "largest_change_repeated": described(
+                changes.max(initial=0.0), (), "largest |change| of D at a repeated pair"
+            ),
         }
+        | counts
+        | _arcs()
     )
+
+
+def _lengths(points):
+    """Return the largest angle between two points of each set; points are [set, point, 3]."""
+    cosines = np.einsum("sip,sjp->sij", points, points)
+    return np.arccos(np.clip(cosines.min(axis=(1, 2)), -1.0, 1.0))
+
+
+def _arcs():
+    """Return how many second arcs are not shorter, and chords that go to 0 before their arcs.
+
+    Over first angles in the middle of equal parts of (0, pi/2); the second one only moves the arc.
+    No arc of the octant is longer than pi / (2 sqrt(2)) times its chord.
+    """
+    middles = (np.arange(N_ANGLES) + 0.5) / N_ANGLES
+    first = [_corners.rotate(np.eye(3), kac_fig7.PAIR, 0.5 * np.pi * part) for part in middles]
+    second = [_corners.rotate(points, PAIR, 1.0) for points in first]
+    longer = _lengths(np.stack(second)) > _lengths(np.stack(first)) - ROUNDING
+    chord = np.sqrt(2.0) * np.r_[middles, 1.0]
+    arc = 2.0 * np.arcsin(0.5 * chord)
+    far = arc > np.pi / np.sqrt(8.0) * chord + ROUNDING
+    described = store.described
+    return {
+        "n_arcs": described(longer.size, (), "first angles looked at"),
+        "n_longer": described(longer.sum(), (), "those whose second arc is not shorter"),
+        "n_chords": described(far.size, (), "chords looked at"),
+        "n_far": described(far.sum(), (), "those whose arc is longer than the bound"),
+    }
+
+
+def claims(dataset):
+    """Count what contradicts the text on the arcs of three particles."""
+    settings, count = dataset.attrs["settings"], {k: int(dataset[k]) for k in COUNTS}
+    runs = f"N = {settings['n_particles']}, {settings['n_draws']} runs until D < "
+    runs += f"{settings['tolerance']:g}"
+    return [
+        verdict.finding(
+            "kac_52_same_pair",
+            estimate.Share(count["n_repeated_changed"], count["n_repeated"]),
+            f"{count['n_repeated']} steps that repeat a pair, {runs}; largest relative change of D "
+            f"{float(dataset.largest_change_repeated):.1e}.",
+        ),
+        verdict.finding(
+            "kac_52_shrinks",
+            estimate.Share(count["n_other_kept"], count["n_other"]),
+            f"{count['n_other']} steps with another pair, {runs}.",
+        ),
+        verdict.finding(
+            "kac_fig8_shorter",
+            estimate.Exact(count["n_longer"] / count["n_arcs"]),
+            f"{count['n_arcs']} first angles; the arc of the run falls from "
+            f"{float(dataset.length[0]):.3f} to {float(dataset.length[1]):.3f} rad.",
+        ),
+        verdict.finding(
+            "kac_52_chord",
+            estimate.Exact(count["n_far"] / count["n_chords"]),
+            f"{count['n_chords']} chords.",
+        ),
+    ]
 
 
 def draw(dataset):

@@ -7,6 +7,8 @@ from scipy import special
 
 from kacsim.kac.constants import MEAN_ENERGY, RATE
 
+ENERGIES = 1000  # parts of the law of an ensemble's energy
+
 
 def shape(time, collision_rate=RATE):
     """Return C(t) = 1 / (3 - 2 exp(-rate t / 8)) of eq. (8); time may be infinite."""
@@ -68,3 +70,20 @@ def shape_moment(order, c):
     k = order // 2
     constant = math.gamma(k + 0.5) / math.sqrt(math.pi)
     return constant * (1.0 - k + 3.0 * k * c) / c**k
+
+
+def drawn_cumulative(v, n_particles):
+    """Return P(v_1 <= v) at the equilibrium of N particles whose v**2 were drawn from f0.
+
+    Their energy, which section 5.2 takes, follows Gamma(3 N / 2, 1): the mean over equally
+    probable parts of that law.
+    """
+    parts = (np.arange(ENERGIES) + 0.5) / ENERGIES
+    energies = special.gammaincinv(MEAN_ENERGY * n_particles, parts)
+    return np.mean([equilibrium_cumulative(v, n_particles, e) for e in energies], axis=0)
+
+
+def drawn_fourth_moment(n_particles):
+    """Return E v_1**4 of `drawn_cumulative`: 3 E[E**2] / (N (N + 2)), E[E**2] = a (a + 1)."""
+    alpha = MEAN_ENERGY * n_particles
+    return 3.0 * alpha * (alpha + 1.0) / (n_particles * (n_particles + 2.0))

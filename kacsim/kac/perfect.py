@@ -229,17 +229,22 @@ def diameter(corners):
 def trajectory(n_particles, energy, first, second, part):
     """Return all corner points after 0, 1, ... steps, the inputs in the order of time.
 
+    In energies, where a step loses no digit to a difference: lengths are compared afterwards.
+
     Returns
     -------
     float64[steps + 1, N, N], velocities: time, corner, particle
     """
     path = np.zeros((first.size + 1, n_particles, n_particles))
     for i in range(n_particles):
-        path[0, i, i] = math.sqrt(energy)
+        path[0, i, i] = energy
     for k in range(first.size):
         path[k + 1] = path[k]
-        walk(path[k + 1], first[k : k + 1], second[k : k + 1], part[k : k + 1], 1)
-    return path
+        p, q, a = first[k], second[k], part[k]
+        for i in range(n_particles):
+            total = path[k, i, p] + path[k, i, q]
+            path[k + 1, i, p], path[k + 1, i, q] = a * total, (1.0 - a) * total
+    return np.sqrt(path)
 
 
 @kernel

@@ -5,14 +5,15 @@ import functools
 import math
 
 from kacsim.boltzmann.samplers import TREE, grid, tree_cost
-from kacsim.checks import Problem, count, finite, not_negative, one_of, positive
-from kacsim.kac.constants import MEAN_ENERGY, RATE, n_steps
+from kacsim.checks import Problem, count, falling, finite, not_negative, one_of, positive
+from kacsim.kac.constants import MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
 from kacsim.samplers import Parameter, Sampler, Variant, real, whole, whole_or_infinite
 
 OUTSIDE = "a case carries every value that its declaration sets"
 
 ENGINES = ("ancestral", "forward")
 RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
+LARGEST_CORNERS = 1000  # particles whose corners are compared step by step
 LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
 LARGEST_LABELLED, LARGEST_ENSEMBLE = 10**8, 10**15
 
@@ -141,6 +142,30 @@ def kac_equilibrium(*, n_particles, tolerance, energy=None):
         yield Problem("tolerance", tolerance, sentence)
 
 
+def kac_readings(*, n_particles, tolerance, **_):
+    """Yield the problems of tolerances in units of the sphere's radius, and of many corners."""
+    if n_particles > LARGEST_CORNERS:
+        yield Problem("n_particles", n_particles, f"must be at most {LARGEST_CORNERS}")
+    if max(tolerance) >= 1.0 or min(tolerance) < RELATIVE_TOLERANCE:
+        sentence = f"must lie between {RELATIVE_TOLERANCE} and 1, in units of the radius"
+        yield Problem("tolerance", tolerance, sentence)
+
+
+def kac_forward(*, n_particles, tolerance, energy=None):
+    """Yield the problems of coupling both ways: corners are compared at every step."""
+    if n_particles > LARGEST_CORNERS:
+        yield Problem("n_particles", n_particles, f"must be at most {LARGEST_CORNERS}")
+    # The limit is taken where corners are nearer than this by a factor of 10**4.
+    finest = 1e-4 * tolerance if isinstance(tolerance, float) else tolerance
+    yield from kac_equilibrium(n_particles=n_particles, tolerance=finest, energy=energy)
+
+
+def readings_cost(parameters):
+    """Return the work of one draw: N steps of cost N for each digit, for eight rules."""
+    digits = max(1.0, -math.log10(min(parameters["tolerance"])))
+    return 3.5 * parameters["n_particles"] ** 2 * digits
+
+
 def coupling_cost(parameters):
     """Return the work of one epsilon-perfect draw: N steps of cost N for each digit."""
     digits = max(1.0, -math.log10(parameters["tolerance"]))
@@ -161,6 +186,9 @@ N_PARTICLES = Parameter(
     "n_particles", "n", "number of particles", functools.partial(count, least=2), kind=whole
 )
 TOLERANCE = Parameter("tolerance", "eps", "epsilon of the perfect sampler", positive, kind=real)
+ENERGY = Parameter(
+    "energy", "e", "energy of all particles, 3 N / 2 by default", positive, None, kind=real
+)
 KAC = Sampler(
     "kac",
     "v_1 at a time, by one algorithm of the Kac paper",
@@ -195,19 +223,12 @@ KAC = Sampler(
 EQUILIBRIUM = Sampler(
     "kac_equilibrium",
     "v_1 at equilibrium, epsilon-perfect, with coupling times",
-    (
-        N_PARTICLES,
-        TOLERANCE,
-        Parameter(
-            "energy", "e", "energy of all particles, 3 N / 2 by default", positive, None,
-            kind=real,
-        ),
-    ),
+    (N_PARTICLES, TOLERANCE, ENERGY),
     kernels="perfect",
     check=kac_equilibrium,
     cost=coupling_cost,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
-)  # fmt: skip
+)
 CORNERS = Sampler(
     "kac_corners",
     "the distances of the corners before they meet",
@@ -216,6 +237,37 @@ CORNERS = Sampler(
     check=kac_equilibrium,
     cost=coupling_cost,
     by_replicate=False,
+    tiny=({"n_particles": 3, "tolerance": 0.1},),
+)
+READINGS = Sampler(
+    "kac_readings",
+    "coupling times under other readings of the algorithm",
+    (
+        N_PARTICLES,
+        Parameter(
+            "walk", "", f"how corner points move: {', '.join((*WALKS, SINGLE))}",
+            functools.partial(one_of, allowed=(*WALKS, SINGLE)), shown=True,
+        ),
+        Parameter(
+            "tolerance", "eps", "distances at which to stop, falling, over the sphere's radius",
+            positive, kind=real, many=True, whole=falling,
+        ),
+    ),
+    kernels="readings",
+    check=kac_readings,
+    cost=readings_cost,
+    tiny=(
+        {"n_particles": 4, "walk": "printed", "tolerance": [0.1, 0.01]},
+        {"n_particles": 4, "walk": SINGLE, "tolerance": [0.1]},
+    ),
+)  # fmt: skip
+FORWARD = Sampler(
+    "kac_forward",
+    "equilibrium draws coupled from the past, by doubling and forward on the same inputs",
+    (N_PARTICLES, TOLERANCE, ENERGY),
+    kernels="forward",
+    check=kac_forward,
+    cost=coupling_cost,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
 )
 PROBE = Sampler(
@@ -232,4 +284,4 @@ PROBE = Sampler(
     cost=functools.partial(tree_cost, axis="speed"),
     tiny=({"speed": [1.0], "time": [1.0]},),
 )
-SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, PROBE)
+SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, READINGS, FORWARD, PROBE)

@@ -11,12 +11,21 @@ from numba import int64
 
 from kacsim.boltzmann.sampling import sample as sample_kac_probe
 from kacsim.kac import draws, perfect
+from kacsim.kac.coupling import sample_kac_forward, sample_kac_readings
 from kacsim.kernels.jit import kernel
 from kacsim.statistics.histogram import FINE_BINS, FINE_LIMIT, FINE_WIDTH, fine_edges
 from kacsim.store import described
 from kacsim.streams import CHUNK, new_stream
 
-__all__ = ["KEPT", "sample_kac", "sample_kac_corners", "sample_kac_equilibrium", "sample_kac_probe"]
+__all__ = [
+    "KEPT",
+    "sample_kac",
+    "sample_kac_corners",
+    "sample_kac_equilibrium",
+    "sample_kac_forward",
+    "sample_kac_probe",
+    "sample_kac_readings",
+]
 
 ORDERS = (2, 4, 6, 8)
 KEPT = 100_000

@@ -1,6 +1,7 @@
 """Every kernel gives the same values, draw by draw, as its plain-Python twin (see twins.py)."""
 
 import functools
+import itertools
 import math
 
 import numpy as np
@@ -8,7 +9,8 @@ import pytest
 import twins
 from law.algorithms import own_parameters
 
-from kacsim.kac import draws, perfect
+from kacsim.kac import draws, forward, perfect, readings
+from kacsim.kac.constants import RULES, WALKS
 from kacsim.kac.samplers import ALGORITHMS, ENGINES, KAC
 from kacsim.streams import new_stream
 
@@ -136,3 +138,44 @@ def test_couple_gives_the_twins_draws(n, tolerance, n_seeds, seed):
         perfect.couple(velocity, time, n, energy, tolerance, new_stream(*key))
         wanted, wanted_time = twins.couple(n, energy, tolerance, new_stream(*key))
         assert (time[0], abs(velocity[0])) == (wanted_time, pytest.approx(wanted, rel=1e-12))
+
+
+@pytest.mark.parametrize("n", [2, 3, 6])
+@pytest.mark.parametrize("walk", WALKS)
+def test_stopping_times_are_the_twins(walk, n, seed):
+    """Every rule at every tolerance; the kernel looks again only where a step changed a pair."""
+    key, tolerance, n_draws = (seed, "twin readings"), [0.5, 0.1, 0.03, 1e-4], 30
+    times = np.zeros((n_draws, len(RULES), len(tolerance)), np.int64)
+    bound = readings.arguments(n_particles=n, walk=walk, tolerance=tolerance)
+    streams = new_stream(*key), new_stream(*key)
+    readings.stopping_times(times, *bound, streams[0])
+    twin = twins.stopping_times(n, walk, tolerance, streams[1])
+    wanted = [[found[rule] for rule in RULES] for found in itertools.islice(twin, n_draws)]
+    np.testing.assert_array_equal(times, wanted)
+    np.testing.assert_array_equal(*streams)
+
+
+def test_a_single_precision_walk_stops_as_in_double_precision(seed):
+    """Where rounding is far below the tolerance: the same inputs, the same times."""
+    key, tolerance, n_draws = (seed, "single"), [0.3, 0.02], 40
+    times, single = np.zeros((n_draws, 8, 2), np.int64), np.zeros((n_draws, 1, 2), np.int64)
+    bound = readings.arguments(n_particles=2, walk="printed", tolerance=tolerance)
+    readings.stopping_times(times, *bound, new_stream(*key))
+    readings.stopping_times_single(single, 2, np.array(tolerance), new_stream(*key))
+    np.testing.assert_array_equal(times[:, :1], single)
+
+
+@pytest.mark.parametrize(("n", "tolerance"), [(2, 0.1), (3, 1e-4), (5, 1e-2)])
+def test_coupling_both_ways_gives_the_twins_draws(n, tolerance, seed):
+    energy, size, key = 1.3 * n, 12, (seed, "twin both ways")
+    corners, errors = np.empty((2, size, n)), np.empty((size, 2))
+    times, streams = np.empty((size, 2), np.int64), (new_stream(*key), new_stream(*key))
+    arguments = forward.arguments(n_particles=n, tolerance=tolerance, energy=energy)
+    forward.couple_both_ways(*corners, errors, times, *arguments, streams[0])
+    twin = twins.couple_both_ways(n, energy, tolerance, streams[1])
+    rows = list(itertools.islice(twin, size))
+    back, onward, wanted, apart = (np.array(column) for column in zip(*rows, strict=True))
+    np.testing.assert_array_equal(times, wanted)
+    np.testing.assert_allclose(corners, [back, onward], rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(errors, apart, rtol=1e-6, atol=1e-13)
+    np.testing.assert_array_equal(*streams)

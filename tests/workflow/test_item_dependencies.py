@@ -5,7 +5,7 @@ What samplers need is in tests/unit/test_dependencies.py.
 
 import traced
 
-from kacsim import items
+from kacsim import items, plan
 from kacsim.jobs import stages
 from kacsim.kernels import names, sources
 
@@ -24,7 +24,7 @@ DRAWN = "kac_fig4"
 EMPTY = {"published": set()}
 # Inputs of the rules that write the pages.
 TEXTS = {
-    "page": {"report.html.j2", "style.css", "published.yaml", "captions.yaml", "errata.yaml"},
+    "page": set(plan.REPORT_FILES),
     "printing": set(),
     "runtime": {"runtime.html.j2", "style.css"},
 }

@@ -240,11 +240,13 @@ def test_other_counts_are_of_the_printed_algorithm():
 
 
 def test_the_implied_deviation_is_that_of_our_shape():
-    """Mean 3150, deviation 150, one deviation to either end; the published ends are 526.2 and
-    862.8 away."""
-    found = readings()
-    assert found.implied_spread.values == pytest.approx([526.2, 862.8])
-    assert (float(found.own_mean), float(found.own_spread)) == (3150.0, 150.0)
+    """Mean 3200, 200 above the smallest and 100 below the largest time; published 526.2, 862.8."""
+    found = readings(None, PUBLISHED, (3000.0, 3300.0, 3300.0))
+    spread = math.sqrt(20000.0)
+    assert found.implied_spread.values == pytest.approx(
+        [526.2 * spread / 200.0, 862.8 * spread / 100.0]
+    )
+    assert (float(found.own_mean), float(found.own_spread)) == (3200.0, pytest.approx(spread))
 
 
 def test_collisions_of_one_particle_in_the_published_mean():

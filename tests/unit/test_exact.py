@@ -116,6 +116,22 @@ def test_equilibrium_of_n_particles_is_a_beta_law(n, energy):
     assert exact.equilibrium_fourth_moment(n, energy) == pytest.approx(moment, rel=1e-12)
 
 
+def test_an_energy_drawn_from_f0_mixes_the_laws():
+    """By quadrature over E ~ Gamma(3 N / 2, 1); E v**4 = 3 E[E**2] / (N (N + 2))."""
+    n, v = 5, np.array([-1.3, -0.4, 0.0, 0.7, 2.9])
+    energies = np.linspace(1e-3, 60.0, 60_001)
+    weights = stats.gamma(1.5 * n).pdf(energies) * (energies[1] - energies[0])
+    mixed = [
+        weights
+        @ (0.5 + 0.5 * np.sign(x) * stats.beta(0.5, 2.0).cdf(np.minimum(1, x * x / energies)))
+        for x in v
+    ]
+    np.testing.assert_allclose(exact.drawn_cumulative(v, n), mixed, atol=2e-5)
+    second = weights @ energies**2
+    assert exact.drawn_fourth_moment(n) == pytest.approx(3.0 * second / (n * (n + 2)), rel=1e-6)
+    assert exact.drawn_fourth_moment(50) == pytest.approx(342.0 / 52.0, rel=1e-12)
+
+
 def test_equilibrium_of_many_particles_is_eq_9():
     finite = exact.equilibrium_cumulative(GRID, 10**7)
     np.testing.assert_allclose(finite, kac.cumulative(GRID, math.inf), atol=1e-7)

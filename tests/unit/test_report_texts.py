@@ -51,6 +51,16 @@ def test_every_item_has_all_its_texts():
     assert all(needed <= set(texts) <= needed | {"engine", "draws"} for texts in captions.values())
 
 
+def test_every_text_is_a_template():
+    env = report.environment()
+    captions, errata = (yaml.safe_load(text) for text in (CAPTIONS, ERRATA))
+    errors = [error for text in errata.values() for error in text["errors"]]
+    for texts in (*captions.values(), *errors):
+        for text in texts.values():
+            if isinstance(text, str):
+                env.from_string(text)
+
+
 def test_every_error_has_its_parts_and_its_claims_are_published():
     for text in yaml.safe_load(ERRATA).values():
         assert set(text) == {"name", "about", "errors"}

@@ -20,10 +20,14 @@ def run(arguments):
     if not report.exists() or report.stat().st_mtime < arguments.since:
         return
     from kacsim import store
+    from kacsim.statistics.verdict import VERDICTS
 
-    words = []
+    words, checks = [], 0
     for path in sorted(Path(arguments.datasets).glob("*_numbers.nc")):
-        words += list(store.read(path)["verdict"].values)
-    counts = {word: words.count(word) for word in dict.fromkeys(words)}
-    shown = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
-    print(f"{report}: of {len(words)} published results {shown}")
+        table = store.read(path)
+        published = table.kind.values != "check"
+        words += list(table.verdict.values[published])
+        checks += int((~published).sum())
+    counts = {word: words.count(word) for word in VERDICTS if word in words}
+    shown = ", ".join(f"{number} {word}" for word, number in counts.items())
+    print(f"{report}: of {len(words)} published results {shown}; {checks} checks of our own apart")

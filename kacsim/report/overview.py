@@ -2,6 +2,8 @@
 
 import io
 
+import matplotlib
+
 from kacsim.items import _claims
 from kacsim.report import svg
 
@@ -20,5 +22,6 @@ def drawn(datasets):
         return None
     figure = _claims.draw(_claims.joined(tables), ROW_HEIGHT, words=False)
     text = io.StringIO()
-    figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+    with matplotlib.rc_context({"svg.fonttype": figure.svg_fonttype}):
+        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
     return svg.inline(text.getvalue(), "overview", "overview", LABEL)[0]

@@ -235,16 +235,10 @@ def stopping_times(times, n_particles, pairs, shares, tolerance, stream):
             moved = math.sqrt(moved) / n
             spread = 2.0 * (n * squares - length) / (n * (n - 1.0))
             for rule in range(n_rules):
-                i, j = pair[rule, 0], pair[rule, 1]
                 # What showed two images apart stays as it was unless the step touched them.
-                if (
-                    rule < SETTLED
-                    and rule != MEAN_SQUARE
-                    and p != i
-                    and p != j
-                    and q != i
-                    and q != j
-                ):
+                i, j = pair[rule, 0], pair[rule, 1]
+                of_pair = rule != MEAN_SQUARE and rule != SETTLED
+                if of_pair and p not in (i, j) and q not in (i, j):
                     continue
                 while level[rule] < tolerance.size:
                     goal = tolerance[level[rule]]

@@ -169,6 +169,7 @@ def test_the_reading_that_fits_is_found():
         ((948.2, 80.0, 0.32), [1, 0, 0]),  # too narrow
         ((948.2, 270.0, 0.32), [1, 0, 0]),  # too wide
         ((948.2, 155.0, -1.2), [1, 0, 0]),  # skewed to the other side
+        ((948.2, 330.0, 1.2), [1, 1, 0]),  # skewed so that one end fits
         ((984.2, 155.0, 0.32), [0, 1, 1]),  # digits interchanged
     ],
 )
@@ -180,17 +181,15 @@ def test_mean_and_range_are_each_wanted(numbers, fits):
 
 
 def test_replicates_share_one_law():
-    """Means 900 and 1000, each of variance 7 and third moment 5: of all 2507 and 5."""
-    gap = fabricated.variables(
-        mean=(("rule", "tolerance", "replicate"), [[[900.0, 1000.0]]]),
-        variance=(("rule", "tolerance", "replicate"), [[[7.0, 7.0]]]),
-        third=(("rule", "tolerance", "replicate"), [[[5.0, 5.0]]]),
-    )
+    """Means 900 and 1000, variances 7 and 9, third moments 5: of all 8 + 2500, and 5 + 3 * 50."""
+    sums = {"mean": [900.0, 1000.0], "variance": [7.0, 9.0], "third": [5.0, 5.0]}
+    dims = ("rule", "tolerance", "replicate")
+    sample = fabricated.variables(**{name: (dims, [[values]]) for name, values in sums.items()})
     case = kac_readings._counted(fabricated.settings("kac_readings"))
-    mean, error, spread, skewness = kac_readings._moments(gap, case, 0, 0)[:4]
-    assert (mean, spread) == (950.0, pytest.approx(math.sqrt(2507.0)))
+    mean, error, spread, skewness = kac_readings._moments(sample, case, 0, 0)[:4]
+    assert (mean, spread) == (950.0, pytest.approx(math.sqrt(2508.0)))
     assert error == pytest.approx(spread / math.sqrt(case.n_draws * case.n_replicates))
-    assert skewness == pytest.approx(5.0 / 2507.0**1.5)
+    assert skewness == pytest.approx(155.0 / 2508.0**1.5)
 
 
 def test_tolerances_are_over_the_radius():

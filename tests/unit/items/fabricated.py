@@ -9,9 +9,11 @@ import math
 
 import numpy as np
 import xarray as xr
+from scipy import stats
 
 from kacsim import items, plan
 from kacsim.kernels.provenance import ROOT
+from kacsim.statistics import verdict
 
 FINE_WIDTH, FINE_LIMIT, N_FINE = 0.05, 8.0, 320  # the bins that samplers of velocities count in
 ORDERS = (2, 4, 6, 8)
@@ -46,6 +48,13 @@ def reduced(name, chosen, make):
 def found(name, dataset):
     """Return claim id -> Finding of an item."""
     return {one.claim: one for one in items.load(name).claims(dataset)}
+
+
+def judged(finding, intervals=100):
+    """Return (verdict, verdicts of the parts) of a finding, among so many intervals."""
+    entry = items.published()[finding.claim]
+    word, parts = verdict.judge(finding, entry, 0.01 / intervals)
+    return word, [part["verdict"] for part in parts]
 
 
 def about(mean, error, n):
@@ -107,6 +116,35 @@ def bins(draws):
         place = round((low + FINE_LIMIT) / FINE_WIDTH) + 1 if np.isfinite(low) else 0
         counts[min(place, N_FINE + 1)] += number
     return counts
+
+
+def eq_8(time):
+    """Return float64[322], the probabilities of eq. (8) of the Kac paper in the fine bins.
+
+    With C = 1 / (3 - 2 exp(-sqrt(pi) t / 16)) it is a mixture: with the weight 3/2 (1 - C) a normal
+    law of variance 1 / (2 C), else a root, of random sign, of a Gamma(3/2) variate over C.
+    """
+    c = 1.0 / (3.0 - 2.0 * math.exp(-math.sqrt(math.pi) * time / 16.0))
+    edges = np.linspace(-FINE_LIMIT, FINE_LIMIT, N_FINE + 1)
+    root = 0.5 + 0.5 * np.sign(edges) * stats.gamma(1.5, scale=1.0 / c).cdf(edges**2)
+    normal = stats.norm(scale=1.0 / math.sqrt(2.0 * c)).cdf(edges)
+    below = 1.5 * (1.0 - c) * normal + (1.5 * c - 0.5) * root
+    return np.diff(below, prepend=0.0, append=1.0)
+
+
+def with_tvn(values, n_draws, time):
+    """Return int[replicate, 322], counts whose TVN against eq. (8) is that of each replicate.
+
+    A share of the draws is in the lower tail, where eq. (8) has almost none, and the others follow
+    it: in bins of any width the TVN is that share, but for rounding, 1e-4 of it with 1e7 draws.
+    """
+    law = eq_8(time)
+    counts = []
+    for value in values:
+        lost = round(value * n_draws)
+        counts.append(rounded(law, n_draws - lost))
+        counts[-1][0] += lost
+    return np.array(counts)
 
 
 def rounded(probabilities, n):

@@ -55,7 +55,7 @@ def test_a_run_with_other_settings_is_not_kept(results, tmp_path):
 def test_a_report_that_is_too_large_is_not_kept(results, tmp_path):
     folder, full = results
     (folder / "report/report.html").write_text("x" * (kept.LARGEST_REPORT + 1), encoding="utf-8")
-    with pytest.raises(files.StoreError, match="at most 5000000"):
+    with pytest.raises(files.StoreError, match=f"at most {kept.LARGEST_REPORT}"):
         kept.keep(folder, full, tmp_path / "latest")
 
 

@@ -73,3 +73,17 @@ def test_a_number_beside_an_estimate_has_its_digits(value, error, text):
 def test_subscripts():
     text = report_numbers.subscripted("u N_t < F_j, L_y = 2: n_draws, x_max")
     assert text == "u N<sub>t</sub> &lt; F<sub>j</sub>, L<sub>y</sub> = 2: n_draws, x_max"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "text"),
+    [
+        (0.0432, 0.0532, "0.0432 to 0.0532"),
+        (2305.8, 2790.2, "2306 to 2790"),
+        (-1.5e-6, 2.5e-6, "(−1.5 to 2.5)·10⁻⁶"),
+        (1.5, 1.5, "1.5"),
+        (0.1, float("inf"), "0.1 to ∞"),
+    ],
+)
+def test_an_interval_has_the_digits_of_its_width(low, high, text):
+    assert report_numbers.span(low, high) == text

@@ -4,14 +4,10 @@ import math
 
 from kacsim import items
 from kacsim.cases import make_case
-from kacsim.items import kac_coupling
-from kacsim.items._lazy import extremes, np, plotting, store, xr
+from kacsim.items import _readings, kac_coupling
+from kacsim.items._lazy import np, plotting, store, xr
 from kacsim.kac.constants import LIMIT_STEPS, MEAN_ENERGY, RULES, SINGLE, WALKS
 
-PUBLISHED_DRAWS = 100_000
-HALF_UNIT = 0.05  # of the last digit of the published mean
-CHANCE = 1e-3  # of an extreme outside the interval in which it is looked for
-DEVIATIONS = 3.5  # of a mean that is looked for
 TOLERANCES = {  # of a tolerance e on a sphere of radius R with N particles, over the radius
     "ε, E = 3N/2": lambda e, n: e / math.sqrt(MEAN_ENERGY * n),
     "ε, E = N": lambda e, n: e / math.sqrt(n),
@@ -29,16 +25,6 @@ COUNTS = {  # what a coupling time t of N particles may be counted in
     "sweeps of N/2 pairs": lambda t, n: t / (n / 2.0),
     "sweeps of N pairs": lambda t, n: t / n,
     "every other step": lambda t, n: t / 2.0,
-}
-NUMBERS = {
-    "mean": "mean coupling time",
-    "error": "standard error of the mean",
-    "spread": "standard deviation of the coupling time",
-    "skewness": "skewness of the coupling time",
-    "least_low": "lower end of the interval for the smallest of the published number of draws",
-    "least_high": "its upper end",
-    "most_low": "lower end of the interval for the largest of the published number of draws",
-    "most_high": "its upper end",
 }
 
 
@@ -114,7 +100,9 @@ def reduce(samples, settings):
         sample = samples[case.id]
         named = _named(settings, n)
         for r, rule in enumerate(RULES):
-            table = [_moments(sample, case, r, k) for k in range(sample.sizes["tolerance"])]
+            table = [
+                _readings.moments(sample, case, r, k) for k in range(sample.sizes["tolerance"])
+            ]
             places = {float(f"{e:.6g}"): k for k, e in enumerate(sample["tolerance"].values)}
             rows += [
                 ((walk, n, rule, name), table[places[e]])
@@ -122,17 +110,17 @@ def reduce(samples, settings):
                 if e in places
             ]
             curves.append(table)
-            free.append(_at_mean(table, published[0]))
+            free.append(_readings.at_mean(table, published[0]))
     single = _case(settings, SINGLE, settings["n_particles"])
     sample = samples[single.id]
     for name, e in _named(settings, settings["n_particles"]).items():
         k = int(np.argmin(np.abs(sample["tolerance"].values - e)))
         key = (SINGLE, settings["n_particles"], RULES[0], name)
-        rows.append((key, _moments(sample, single, 0, k)))
+        rows.append((key, _readings.moments(sample, single, 0, k)))
     times = samples[_counted(settings).id]["coupling_time"].values.astype(float)
     for name, count in COUNTS.items():
         key = ("printed", settings["n_particles"], name, "ε, E = 3N/2")
-        rows.append((key, _of_draws(count(times, settings["n_particles"]))))
+        rows.append((key, _readings.of_draws(count(times, settings["n_particles"]))))
     return xr.Dataset(
         _reading_variables(rows, published)
         | _curve_variables(families, curves, free, published)
@@ -146,76 +134,12 @@ def _published():
     return [float(entries[f"kac_fig9_coupling_{key}"]["printed"]) for key in ("mean", "min", "max")]
 
 
-def _moments(sample, case, rule, place):
-    """Return NUMBERS of a reading, from the sums of its draws."""
-    n_draws = case.n_draws * case.n_replicates
-    here = sample.isel(rule=rule, tolerance=place)
-    means = here["mean"].values
-    mean = float(means.mean())
-    variance = float(here["variance"].mean() + means.var())
-    # Third moments about the replicates' means, moved to the mean of all.
-    gap = means - mean
-    third = float((here["third"] + 3.0 * here["variance"] * gap + gap**3).mean())
-    return _numbers(mean, variance, third, n_draws)
-
-
-def _of_draws(times):
-    """Return NUMBERS of a reading, from draws."""
-    gap = times - times.mean()
-    return _numbers(times.mean(), (gap**2).mean(), (gap**3).mean(), times.size)
-
-
-def _numbers(mean, variance, third, n_draws):
-    spread = math.sqrt(max(0.0, variance))
-    skewness = third / spread**3 if spread > 0.0 else 0.0
-    error = spread / math.sqrt(n_draws)
-    return [float(mean), error, spread, skewness, *_ends(mean, spread, skewness, n_draws)]
-
-
-def _ends(mean, spread, skewness, n_measured=math.inf):
-    """Return where the extremes of the published number of draws are looked for."""
-    least, most = extremes.expected(mean, spread, skewness, PUBLISHED_DRAWS, CHANCE, n_measured)
-    return [*least, *most]
-
-
-def _at_mean(table, mean):
-    """Return NUMBERS at the tolerance that gives a mean, between two of them; nan if none does."""
-    values = np.array(table)
-    if not values[0, 0] <= mean <= values[-1, 0]:
-        return [math.nan] * len(NUMBERS)
-    return [float(np.interp(mean, values[:, 0], column)) for column in values.T]
-
-
-def fits(numbers, published):
-    """Tell which of the published mean, smallest and largest time a reading gives.
-
-    Parameters
-    ----------
-    numbers : float[..., number], those of NUMBERS
-    published : (mean, smallest, largest)
-
-    Returns
-    -------
-    bool[..., 3]
-    """
-    values = dict(zip(NUMBERS, np.moveaxis(np.asarray(numbers, float), -1, 0), strict=True))
-    mean, least, most = published
-    drawn = values["spread"] / math.sqrt(PUBLISHED_DRAWS)
-    reach = HALF_UNIT + DEVIATIONS * np.hypot(values["error"], drawn)
-    found = (
-        np.abs(values["mean"] - mean) <= reach,
-        (values["least_low"] <= least) & (least <= values["least_high"]),
-        (values["most_low"] <= most) & (most <= values["most_high"]),
-    )
-    return np.stack(found, axis=-1)
-
-
 def _reading_variables(rows, published):
     """Return the variables of the readings, and how many there are that fit."""
     described = store.described
     keys, table = zip(*rows, strict=True)
     walks, particles, rules, tolerances = zip(*keys, strict=True)
-    found = fits(table, published)
+    found = _readings.fits(table, published)
     dims = ("reading",)
     words = {"walk": walks, "rule": rules, "tolerance_name": tolerances}
     variables = {
@@ -224,13 +148,15 @@ def _reading_variables(rows, published):
     }
     return variables | {
         "n_particles": described(np.array(particles), dims, "particles"),
-        "number": described(np.array(table), (*dims, "which"), "; ".join(NUMBERS.values())),
+        "number": described(
+            np.array(table), (*dims, "which"), "; ".join(_readings.NUMBERS.values())
+        ),
         "fits": described(found.astype(np.int8), (*dims, "part"), "1 if mean, least, most fit"),
         "n_readings": described(len(rows), (), "readings tried"),
         "n_mean": described(found[:, 0].sum(), (), "readings whose mean fits"),
         "n_range": described(found[:, 1:].all(axis=1).sum(), (), "readings whose range fits"),
         "n_all": described(found.all(axis=1).sum(), (), "readings of which all three fit"),
-        "which": described(np.array(list(NUMBERS), dtype=object), ("which",), "number"),
+        "which": described(np.array(list(_readings.NUMBERS), dtype=object), ("which",), "number"),
     }
 
 
@@ -242,9 +168,9 @@ def _curve_variables(families, curves, free, published):
     for k, table in enumerate(curves):
         lines[k, : len(table)] = np.array(table)[:, [0, 2]]
     shape = (len(families), len(RULES))
-    free = np.array(free).reshape(*shape, len(NUMBERS))
+    free = np.array(free).reshape(*shape, len(_readings.NUMBERS))
     there = np.isfinite(free[..., 0])
-    found = fits(np.nan_to_num(free), published)[..., 1:].all(axis=-1) & there
+    found = _readings.fits(np.nan_to_num(free), published)[..., 1:].all(axis=-1) & there
     dims = ("family", "rule_place")
     texts = {"family_walk": [w for w, _ in families], "rule_name": list(RULES)}
     variables = {
@@ -264,7 +190,7 @@ def _curve_variables(families, curves, free, published):
 
 def _implied(times, settings, published):
     """Return the deviation that the published range implies, and a law that has all three."""
-    described, ours = store.described, _of_draws(times)
+    described, ours = store.described, _readings.of_draws(times)
     shape = (times.mean() - times.min(), times.max() - times.mean())
     mean, least, most = published
     spreads = [
@@ -282,7 +208,9 @@ def _implied(times, settings, published):
         "event_mean": described(n_events / chance, (), "mean steps until so many"),
         "event_spread": described(deviation, (), "their standard deviation"),
         "event_ends": described(
-            _ends(n_events / chance, deviation, skewness), ("four",), "their extremes' intervals"
+            _readings.ends(n_events / chance, deviation, skewness),
+            ("four",),
+            "their extremes' intervals",
         ),
         "limit_steps": described(LIMIT_STEPS, (), "steps after which single precision ends"),
     }
@@ -348,7 +276,7 @@ def _draw_ranges(axis, dataset):
     axis.plot(mean, 0, "*", ms=10, color=plotting.COLOURS[1])
     names = ["published"]
     for place, (label, numbers) in enumerate(_shown(dataset), start=1):
-        values = dict(zip(NUMBERS, numbers, strict=True))
+        values = dict(zip(_readings.NUMBERS, numbers, strict=True))
         ends = [0.5 * (values[f"{end}_low"] + values[f"{end}_high"]) for end in ("least", "most")]
         axis.plot(np.maximum(ends, 0.0), [place] * 2, color=plotting.COLOURS[0], lw=1.5)
         axis.plot(values["mean"], place, "o", color=plotting.COLOURS[0], ms=4)
@@ -359,7 +287,7 @@ def _draw_ranges(axis, dataset):
 
 
 def _shown(dataset):
-    """Return (label, NUMBERS) of the readings of SHOWN that are there."""
+    """Return (label, numbers) of the readings of SHOWN that are there."""
     settings = dataset.attrs["settings"]
     columns = (dataset.walk, dataset.n_particles, dataset.rule, dataset.tolerance_name)
     keys = [tuple(key) for key in zip(*(c.values for c in columns), strict=True)]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kacsim import items
-from kacsim.items import kac_readings
+from kacsim.items import _readings, kac_readings
 from kacsim.kac.constants import RULES
 from kacsim.statistics import verdict
 
@@ -186,7 +186,7 @@ def test_replicates_share_one_law():
     dims = ("rule", "tolerance", "replicate")
     sample = fabricated.variables(**{name: (dims, [[values]]) for name, values in sums.items()})
     case = kac_readings._counted(fabricated.settings("kac_readings"))
-    mean, error, spread, skewness = kac_readings._moments(sample, case, 0, 0)[:4]
+    mean, error, spread, skewness = _readings.moments(sample, case, 0, 0)[:4]
     assert (mean, spread) == (950.0, pytest.approx(math.sqrt(2508.0)))
     assert error == pytest.approx(spread / math.sqrt(case.n_draws * case.n_replicates))
     assert skewness == pytest.approx(155.0 / 2508.0**1.5)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import integrate, stats
 
-from kacsim.items import _trap_claims
+from kacsim.items import _trap, _trap_claims
 
 EPS = 9.0 / 41.0
 FIG10 = {
@@ -106,3 +106,11 @@ def test_of_fig10_names_the_ends():
     assert "from r0 = 0 to 5.5" in evidence
     assert "from 1 to 1.2e-06" in evidence
     assert _trap_claims.THRESHOLDS == (0.5, 2.0, 5.5)
+
+
+def test_a_turn_of_the_trap_is_two_pi():
+    chosen = fabricated.settings("boltzmann_fig10", turn=[0.25, 1.0, 3.0], large_turn=[1.0])
+    cases = _trap.cases_by_size("trap_fraction", chosen)
+    times = {size: case.parameters["time"] for size, case in cases.items()}
+    assert times["published"] == pytest.approx([1.570796327, 6.283185307, 18.849555922])
+    assert times["large"] == pytest.approx([6.283185307])

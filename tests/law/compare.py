@@ -7,6 +7,7 @@ negative control, a mutant, must be `caught` at the first look. docs/statistics.
 """
 
 import contextlib
+import functools
 import math
 import os
 import sys
@@ -34,7 +35,7 @@ class Look:
     """One run of a law test: the factor of its draws, and where it took each null z."""
 
     def __init__(self, factor):
-        self.factor, self.places, self.zs = factor, [], []
+        self.factor, self.is_scaled, self.places, self.zs = factor, False, [], []
 
 
 @contextlib.contextmanager
@@ -51,6 +52,8 @@ def look_at(test, seed):
     """Run a test, a function of its seed; return its looks, the second one only after an alarm."""
     with look(1) as first:
         test(seed)
+    if first.zs and not first.is_scaled:
+        raise RuntimeError("a law test makes as many draws as `scaled` says")
     if not any(abs(z) > LIMIT for z in first.zs):
         return [first]
     with look(AGAIN) as second:
@@ -88,7 +91,21 @@ def factor():
 
 def scaled(n_draws):
     """Return how many draws to make where a test states so many."""
+    if _looks:
+        _looks[-1].is_scaled = True
     return round(max(n_draws * DRAWS_FACTOR, min(n_draws, FEWEST)) * factor())
+
+
+def kept(draw):
+    """Return a function of the seed that makes scaled draws once for all tests that share them."""
+    found = functools.cache(draw)
+
+    def drawn(seed):
+        if _looks:
+            _looks[-1].is_scaled = True
+        return found(seed)
+
+    return drawn
 
 
 def ok(*zs):

@@ -1,7 +1,7 @@
 """What pytest makes of a law test: a function of its seed, which is looked at twice.
 
-A test of z takes `seed` as an argument, and draws with nothing else: what several tests share is a
-function of the seed that is kept, not a finished fixture.
+A test of z takes `seed` as an argument, and draws with nothing else, as many as `compare.scaled`
+says. What several tests share is a function of the seed, made by `compare.kept`.
 """
 
 import inspect

@@ -5,7 +5,6 @@ ancestral engine might lose: collisions between ancestors, the order within a st
 are skipped.
 """
 
-import functools
 import math
 
 import numpy as np
@@ -115,7 +114,7 @@ def joint_z(a, b):
 def both(request):
     """Return parameters, and seed -> engine -> (velocities, own collisions), kept."""
     algorithm, *shape = request.param
-    return request.param, functools.cache(
+    return request.param, compare.kept(
         lambda seed: {name: sample(algorithm, name, *shape, seed) for name in ENGINES}
     )
 

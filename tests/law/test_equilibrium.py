@@ -127,23 +127,27 @@ def test_later_draws_of_a_call_have_the_times_of_first_draws(seed):
 
 
 @pytest.fixture(scope="module")
-def both_ways(seed):
-    """Return mean corners from the past and forward, errors and times, of three particles."""
-    size = compare.scaled(300_000)
-    corners, errors = np.empty((2, size, 3)), np.empty((size, 2))
-    times = np.empty((size, 2), np.int64)
-    arguments = forward.arguments(n_particles=3, tolerance=1e-4)
-    stream = new_stream(seed, "law both ways")
-    forward.couple_both_ways(*corners, errors, times, *arguments, stream)
-    return corners, errors, times
+def both_ways():
+    """Return seed -> mean corners from the past and forward, errors and times, kept; N = 3."""
+
+    def draw(seed):
+        size = compare.scaled(300_000)
+        corners, errors = np.empty((2, size, 3)), np.empty((size, 2))
+        times = np.empty((size, 2), np.int64)
+        arguments = forward.arguments(n_particles=3, tolerance=1e-4)
+        stream = new_stream(seed, "law both ways")
+        forward.couple_both_ways(*corners, errors, times, *arguments, stream)
+        return corners, errors, times
+
+    return compare.kept(draw)
 
 
-def test_only_coupling_from_the_past_gives_the_equilibrium(both_ways):
+def test_only_coupling_from_the_past_gives_the_equilibrium(both_ways, seed):
     """Null: v_1 uniform on (0, sqrt(E)) for N = 3, E = 9/2; E v**4 = 4.05 by all particles.
 
     3e5 draws see 0.22 % of the moment. Mutant: the forward draws, 5 % off.
     """
-    (past, onward), _, _ = both_ways
+    (past, onward), _, _ = both_ways(seed)
     radius = np.sqrt(4.5)
     for corners, judge in ((past, compare.ok), (onward, compare.caught)):
         law = functools.partial(np.multiply, 1.0 / radius)
@@ -151,20 +155,20 @@ def test_only_coupling_from_the_past_gives_the_equilibrium(both_ways):
         assert judge(compare.of_mean((corners**4).mean(axis=1), 4.05))
 
 
-def test_both_ways_take_the_same_time(both_ways):
+def test_both_ways_take_the_same_time(both_ways, seed):
     """Null: products of as many independent steps have one law in either order.
 
     3e5 pairs see 0.07 of 14 steps. Mutant: one step more.
     """
-    _, _, times = both_ways
+    _, _, times = both_ways(seed)
     gap = (times[:, 0] - times[:, 1]).astype(float)
     assert compare.ok(compare.of_mean(gap, 0.0))
     assert compare.caught(compare.of_mean(gap + 1.0, 0.0))
 
 
-def test_no_draw_is_an_epsilon_from_where_more_steps_take_it(both_ways):
+def test_no_draw_is_an_epsilon_from_where_more_steps_take_it(both_ways, seed):
     """Exactly: by a power of two, and in the limit. Some draws are a tenth of it away."""
-    _, errors, _ = both_ways
+    _, errors, _ = both_ways(seed)
     assert errors.max() < 1e-4
     assert (errors.max(axis=0) > 1e-5).all()
 
@@ -191,7 +195,7 @@ def test_two_particles_meet_in_the_first_step_that_moves_them(seed):
 
     Null: drawn with replacement a pair is one with probability 1/2, so that times have mean 2.
     """
-    times = np.zeros((1000, len(RULES), 1), np.int64)
+    times = np.zeros((compare.scaled(1000), len(RULES), 1), np.int64)
     for walk in WALKS:
         bound = readings.arguments(n_particles=2, walk=walk, tolerance=[0.3])
         readings.stopping_times(times, *bound, new_stream(seed, f"law two {walk}"))

@@ -26,7 +26,7 @@ def injected(request):
         size = {"n_steps": compare.scaled(40_000), "seed": seed}
         return size["n_steps"], techniques.inject(**state, half_width=BOX, step=STEP, **size)
 
-    return request.param, functools.cache(draw)
+    return request.param, compare.kept(draw)
 
 
 def inward(drift, face):
@@ -143,23 +143,23 @@ def test_particles_are_chosen_by_their_flux(weighted, seed):
 
 @pytest.mark.parametrize("way", ["flight", "steps", "derivative"])
 def test_pairs_that_are_correlated(way, seed):
-    """Null: v f(v) normal to the face; along it the exact mean, or that of the printed steps. 2 z.
+    """Null: v f(v) normal to the face; along it the exact mean, or that of the printed steps. 6 z.
 
     1e6 pairs see 0.5 % of the exact mean along the face. Mutants: the other mean, and f(v) alone.
     """
-    case = make_case(
-        "entering_pairs", way=way, correlation=0.7, n_draws=100_000, n_replicates=10, seed=seed
-    )
+    n = compare.scaled(1_000_000)
+    size = {"n_draws": n // 10, "n_replicates": 10, "seed": seed}
+    case = make_case("entering_pairs", way=way, correlation=0.7, **size)
     normal, along = run(case)["mean"][1].mean(axis=0)
     w = np.linspace(-8.0, 9.0, 1701)
     density, wrong = pair_laws.entering_density(w, 0.7), pair_laws.printed_mean(0.7)
     right = pair_laws.exact_mean(0.7)
     if way == "steps":
         density, right, wrong = pair_laws.printed_density(w, 0.7), wrong, right
-    spread = math.sqrt(np.trapezoid(density * (w - right) ** 2, w) / 1e6)
+    spread = math.sqrt(np.trapezoid(density * (w - right) ** 2, w) / n)
     assert compare.ok((along - right) / spread)
     assert compare.caught((along - wrong) / spread)
-    spread = math.sqrt((2.0 - math.pi / 2.0) / 1e6)
+    spread = math.sqrt((2.0 - math.pi / 2.0) / n)
     assert compare.ok((normal - math.sqrt(math.pi / 2.0)) / spread)
     assert compare.caught((normal - math.sqrt(2.0 / math.pi)) / spread)
 

@@ -1,6 +1,5 @@
 """TVN of an exact sampler: its mean is the noise floor of exact multinomials."""
 
-import functools
 import math
 
 import numpy as np
@@ -35,7 +34,7 @@ def compared(counts, width):
 @pytest.fixture(scope="module")
 def exact_counts():
     """Return seed -> counts of exact draws, kept."""
-    return functools.cache(lambda seed: counts_of(TREE, compare.scaled(100), seed))
+    return compare.kept(lambda seed: counts_of(TREE, compare.scaled(100), seed))
 
 
 @pytest.fixture(scope="module")

@@ -60,11 +60,12 @@ def test_alarms_stay_as_often_as_they_should(bias, unsigned, seed, monkeypatch):
     assert compare.caught(compare.of_share(failed, n, once))
 
 
-def test_a_lucky_alarm_passes_and_a_bias_fails():
+def test_a_lucky_alarm_passes_and_a_bias_fails(monkeypatch):
     """From one z = 4.5: chance is gone at the second look, a bias is twice as large."""
+    monkeypatch.setattr(compare, "DRAWS_FACTOR", 1.0)
 
     def test(bias):
-        return lambda seed: compare.ok(4.5 if compare.factor() == 1 else bias + 0.3)
+        return lambda seed: compare.ok(4.5 if compare.scaled(1) == 1 else bias + 0.3)
 
     chance, biased = (compare.look_at(test(bias), 1) for bias in (0.0, 9.0))
     compare.judge(chance)
@@ -103,7 +104,29 @@ def test_a_second_look_draws_more_from_another_seed_and_no_mutants(monkeypatch):
 
 def test_other_z_at_the_second_look_are_refused():
     with pytest.raises(RuntimeError, match="depends on the draws"):
-        compare.look_at(lambda seed: [compare.ok(5.0) for _ in range(compare.factor())], 1)
+        compare.look_at(lambda seed: [compare.ok(5.0) for _ in range(compare.scaled(1))], 1)
+
+
+def test_draws_that_are_not_scaled_are_refused():
+    with pytest.raises(RuntimeError, match="as many draws as `scaled` says"):
+        compare.look_at(lambda seed: compare.ok(0.0), 1)
+
+
+def test_kept_draws_are_made_once_for_a_seed(monkeypatch):
+    monkeypatch.setattr(compare, "DRAWS_FACTOR", 1.0)
+    made = compare.kept(lambda seed: (seed, object(), compare.scaled(7)))
+
+    def test(seed):
+        assert made(seed) is made(seed)
+        compare.ok(5.0)
+        found.append(made(seed))
+
+    found = []
+    for _ in range(2):
+        compare.look_at(test, 3)
+    assert [one[0] for one in found[:2]] == [3, 3 + compare.FRESH]
+    assert [one[2] for one in found[:2]] == [7, 28]
+    assert found[2:] == found[:2]
 
 
 def test_a_z_without_a_look_is_refused():
@@ -126,12 +149,12 @@ def test_draws_are_not_made_too_few(monkeypatch):
 
 
 TOYS = """
-import functools
 import pytest
 from law import compare
 
 def z(bias, seed):  # an alarm at the first look whatever the bias
-    return 4.5 if seed == 1 else 2.0 * bias + 0.7
+    n = compare.scaled(100)
+    return 4.5 if seed == 1 else 0.7 + bias * (n / 100) ** 0.5
 
 @pytest.fixture
 def seed():
@@ -139,7 +162,7 @@ def seed():
 
 @pytest.fixture(scope="module", params=[0.0, 4.5])
 def kept(request):
-    return functools.cache(lambda seed: z(request.param, seed))
+    return compare.kept(lambda seed: z(request.param, seed))
 
 def test_chance(seed):
     assert compare.ok(0.3, z(0.0, seed))
@@ -154,6 +177,9 @@ def test_shared(kept, seed):
 def test_slip_elsewhere(seed):
     compare.ok(z(0.0, seed))
     assert seed > 1
+
+def test_not_scaled(seed):
+    assert compare.ok(0.0)
 
 def test_without_a_seed():
     assert compare.ok(0.0)
@@ -178,6 +204,7 @@ def test_pytest_looks_twice(tmp_path):
         ("PASSED", "test_shared[0.0]"),
         ("FAILED", "test_shared[4.5]"),
         ("FAILED", "test_slip_elsewhere"),
+        ("FAILED", "test_not_scaled"),
         ("FAILED", "test_without_a_seed"),
     }
     assert "z = 4.50, then 9.70 with 4 times the draws" in done.stdout

@@ -1,6 +1,5 @@
 """Kac's model: what a collision conserves, and the initial law f0."""
 
-import functools
 import math
 
 import numba
@@ -95,7 +94,7 @@ def drawn():
         fill(*arrays, new_stream(seed, "test_model fill"))
         return dict(zip(("velocity", "energy", "shared", "rotated"), arrays, strict=True))
 
-    return functools.cache(draw)
+    return compare.kept(draw)
 
 
 def test_initial_law(drawn, seed):

@@ -51,6 +51,8 @@ class Component:
         if isinstance(self.measured[0], Share):
             n = sum(one.n for one in self.measured)
             share = Share(sum(one.successes for one in self.measured), n)
+            if not share.successes:  # never, in all tables
+                return 0.0, 0.0
             value, error = share.value, share.standard_error
         else:
             values = np.array([one.value for one in self.measured])

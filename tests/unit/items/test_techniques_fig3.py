@@ -167,9 +167,10 @@ def test_claims_take_the_moved_gas_at_their_faces():
         assert printed == pytest.approx(mean_speed(k, 1), rel=1e-6)
         assert rival == pytest.approx(mean_speed(k, 0), rel=1e-6)
     assert chapter.values(found, "techniques_fig3_particles") == [
-        ("", pytest.approx(3.05), pytest.approx(0.05 / ROOT), N - 1)
+        ("", pytest.approx(3.05 * 9 / 23), pytest.approx(0.05 / ROOT * 9 / 23), N - 1)
     ]
-    assert chapter.sets(found, "techniques_fig3_particles")[0][:2] == pytest.approx((23 / 9, 1.8))
+    sets = chapter.sets(found, "techniques_fig3_particles")
+    assert sets[0][:2] == pytest.approx((1.0, 1.8 * 9 / 23))
 
 
 def test_exact_claims():

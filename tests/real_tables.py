@@ -80,9 +80,22 @@ class Record:
     parts: list = field(default_factory=list)
 
 
-def settings_of(name):
-    """Return the settings of an item at the smoke configuration."""
-    return plan.Plan(plan.read_config(*CONFIGURATION)).settings[name]
+def settings_of(name, times=1):
+    """Return the settings of an item at the smoke configuration, with more draws a replicate."""
+    return _more(plan.Plan(plan.read_config(*CONFIGURATION)).settings[name], times)
+
+
+def _more(settings, times):
+    """Return settings with a multiple of every number of draws."""
+
+    def scaled(key, one):
+        if isinstance(one, dict):
+            return _more(one, times)
+        if not key.endswith("n_draws"):
+            return one
+        return [times * n for n in one] if isinstance(one, list) else times * one
+
+    return {key: scaled(key, one) for key, one in settings.items()}
 
 
 def seeded(settings, seed):
@@ -135,8 +148,8 @@ class Tables:
     depends : sentences on what should not depend on what was drawn, but does
     """
 
-    def __init__(self, name):
-        self.name, self.settings = name, settings_of(name)
+    def __init__(self, name, times=1):
+        self.name, self.settings = name, settings_of(name, times)
         self.records, self.depends, self.intervals = {}, set(), []
 
     def add(self, seed):

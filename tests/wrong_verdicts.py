@@ -2,7 +2,7 @@
 
 PYTHONPATH=. python tests/wrong_verdicts.py
 PYTHONPATH=. python tests/wrong_verdicts.py --tables 500 --texts kac
-PYTHONPATH=. python tests/wrong_verdicts.py --real 500 --times 20
+PYTHONPATH=. python tests/wrong_verdicts.py --real 500 --times 5 --replicates 20
 
 A table has as many intervals as a text, each drawn from a law of `interval_laws` for a set of
 `verdict_rows`: once with true values anywhere, once with all of them at an edge, which is the least
@@ -179,13 +179,13 @@ def synthetic(texts, n_tables, bank, seed):
     return few
 
 
-def real(names, n_tables, times):
+def real(names, n_tables, **size):
     """Count wrong verdicts in tables of real samples; return whether they are few enough."""
     import real_tables  # which compiles the samplers
 
     few = True
     for name in names:
-        start, tables = time.monotonic(), real_tables.Tables(name, times)
+        start, tables = time.monotonic(), real_tables.Tables(name, **size)
         for seed in range(n_tables):
             tables.add(seed)
         wrong = tables.show()
@@ -207,11 +207,13 @@ def main():
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--real", type=int, metavar="N", help="N tables of real samples instead")
     parser.add_argument("--times", type=int, default=1, help="as many draws as a smoke run's")
+    parser.add_argument("--replicates", type=int, default=1, help="at least so many of everything")
     parser.add_argument("--items", nargs="+", help="whose tables (default those of the texts)")
     options = parser.parse_args()
     if options.real:
         names = options.items or [f"{name}_numbers" for name in options.texts]
-        return int(not real(names, options.real, options.times))
+        size = {"times": options.times, "replicates": options.replicates}
+        return int(not real(names, options.real, **size))
     return int(not synthetic(options.texts, options.tables, options.bank, options.seed))
 
 

@@ -19,6 +19,7 @@ from kacsim.statistics.estimate import Mean, Share
 
 BANK = 400_000  # replicates of a law
 CHUNK = 5_000  # histograms held at a time
+EXTREMES = 50_000  # of all draws of a table
 
 
 @dataclass(frozen=True)
@@ -218,6 +219,19 @@ def smallest(rng, shape, n_draws, size):
     """Return the smallest of n_draws gamma variates (mean 1), float64[size]."""
     beyond = -np.expm1(np.log(rng.random(size)) / n_draws)
     return special.gammaincinv(shape, beyond) / shape
+
+
+def extreme_of_all(rng, draw, best, shape, n_draws, n):
+    """Return the extreme of all draws as a law, its error the spread of the replicates' extremes.
+
+    Parameters
+    ----------
+    draw, best : `largest` and np.max, or `smallest` and np.min
+    n : replicates, of n_draws each
+    """
+    values = draw(rng, shape, n_draws, n * EXTREMES).reshape(EXTREMES, n)
+    extreme = best(values, axis=1)
+    return Drawn(extreme, values.std(axis=1, ddof=1), n - 1, float(extreme.mean()))
 
 
 def nodes(rng, time, n_draws, size):

@@ -80,9 +80,26 @@ class Record:
     parts: list = field(default_factory=list)
 
 
-def settings_of(name):
-    """Return the settings of an item at the smoke configuration."""
-    return plan.Plan(plan.read_config(*CONFIGURATION)).settings[name]
+def settings_of(name, times=1, replicates=1):
+    """Return the settings of an item at the smoke configuration, with more draws or replicates.
+
+    Parameters
+    ----------
+    name : item
+    times : every number of draws is so many times that of the configuration
+    replicates : least number of replicates
+    """
+
+    def larger(key, one):
+        if isinstance(one, dict):
+            return {name: larger(name, inner) for name, inner in one.items()}
+        if isinstance(one, list):
+            return [larger(key, inner) for inner in one]
+        if key.endswith("n_draws"):
+            return times * one
+        return max(replicates, one) if key.endswith("n_replicates") else one
+
+    return larger("", plan.Plan(plan.read_config(*CONFIGURATION)).settings[name])
 
 
 def seeded(settings, seed):
@@ -135,8 +152,8 @@ class Tables:
     depends : sentences on what should not depend on what was drawn, but does
     """
 
-    def __init__(self, name):
-        self.name, self.settings = name, settings_of(name)
+    def __init__(self, name, **size):
+        self.name, self.settings = name, settings_of(name, **size)
         self.records, self.depends, self.intervals = {}, set(), []
 
     def add(self, seed):

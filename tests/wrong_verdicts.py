@@ -2,7 +2,7 @@
 
 PYTHONPATH=. python tests/wrong_verdicts.py
 PYTHONPATH=. python tests/wrong_verdicts.py --tables 500 --texts kac
-PYTHONPATH=. python tests/wrong_verdicts.py --real 500
+PYTHONPATH=. python tests/wrong_verdicts.py --real 500 --times 5 --replicates 20
 
 A table has as many intervals as a text, each drawn from a law of `interval_laws` for a set of
 `verdict_rows`: once with true values anywhere, once with all of them at an edge, which is the least
@@ -38,14 +38,20 @@ def kac(rng, size):
         laws.Replicates(draw(rng, 30.0, 100_000, size), 20)
         for draw in (laws.smallest, laws.largest)
     )
+    low, high = (
+        laws.extreme_of_all(rng, draw, best, 30.0, 10_000, 20)
+        for draw, best in ((laws.smallest, np.min), (laws.largest, np.max))
+    )
     known = laws.Normal(np.inf)
     return [
         *_rows("TVN, t with 99", tvn, "words", "words", "digits", "digits", "implied", "corrected"),
         Row("TVN, t with 99", tvn, SCENES["words"], 8),
         Row("TVN, difference", gap, SCENES["direction"], 10),
         Row("TVN, difference", gap, SCENES["words"], 8),
-        *_rows("extremes, t with 19", first, "words", "digits"),
-        *_rows("extremes, t with 19", last, "words", "digits"),
+        *_rows("mean extremes, t with 19", first, "words", "digits"),
+        *_rows("mean extremes, t with 19", last, "words", "digits"),
+        *_rows("extremes of all draws", low, "words", "digits"),
+        *_rows("extremes of all draws", high, "words", "digits"),
         *_rows("normal, known error", known, "implied", "rival", "corrected", "words", "direction"),
         Row("normal, known error", known, SCENES["implied"], 12),
         Row("normal, known error", known, SCENES["corrected"], 6),
@@ -173,13 +179,13 @@ def synthetic(texts, n_tables, bank, seed):
     return few
 
 
-def real(names, n_tables):
+def real(names, n_tables, **size):
     """Count wrong verdicts in tables of real samples; return whether they are few enough."""
     import real_tables  # which compiles the samplers
 
     few = True
     for name in names:
-        start, tables = time.monotonic(), real_tables.Tables(name)
+        start, tables = time.monotonic(), real_tables.Tables(name, **size)
         for seed in range(n_tables):
             tables.add(seed)
         wrong = tables.show()
@@ -200,11 +206,14 @@ def main():
     parser.add_argument("--texts", nargs="+", default=list(TEXTS), choices=TEXTS)
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--real", type=int, metavar="N", help="N tables of real samples instead")
+    parser.add_argument("--times", type=int, default=1, help="as many draws as a smoke run's")
+    parser.add_argument("--replicates", type=int, default=1, help="at least so many of everything")
     parser.add_argument("--items", nargs="+", help="whose tables (default those of the texts)")
     options = parser.parse_args()
     if options.real:
         names = options.items or [f"{name}_numbers" for name in options.texts]
-        return int(not real(names, options.real))
+        size = {"times": options.times, "replicates": options.replicates}
+        return int(not real(names, options.real, **size))
     return int(not synthetic(options.texts, options.tables, options.bank, options.seed))
 
 

@@ -125,10 +125,13 @@ def histogram_of(sample, bin_width, replicate=0):
     return counts[1:-1] / counts.sum() / np.diff(edges), edges
 
 
-def mean_of(dataset, variable, **place):
-    """Return an estimate from a reduced dataset: `variable` and `variable`_error at a place."""
+def mean_of(dataset, variable, degrees=math.inf, **place):
+    """Return an estimate from a reduced dataset: `variable` and `variable`_error at a place.
+
+    Without degrees of freedom the error is that of all draws, and counts as known.
+    """
     here = dataset.sel(**place)
-    return estimate.Mean(float(here[variable]), float(here[variable + "_error"]))
+    return estimate.Mean(float(here[variable]), float(here[variable + "_error"]), degrees)
 
 
 def tvn_of(dataset, **place):

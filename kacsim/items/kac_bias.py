@@ -248,7 +248,7 @@ def _checks(dataset):
             printed=float(dataset.rate_time),
         ),
         verdict.Part(
-            _kac.mean_of(dataset, "spared"),
+            _kac.mean_of(dataset, "spared", dataset.attrs["settings"]["n_replicates"] - 1),
             "collisions spared",
             printed=float(dataset.spared_exact),
         ),

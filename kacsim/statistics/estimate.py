@@ -67,14 +67,14 @@ class Share:
 
     @property
     def value(self):
-        """Return the share."""
-        return self.successes / self.n
+        """Return the share; nan of no trial at all, which rare draws may leave."""
+        return self.successes / self.n if self.n else math.nan
 
     @property
     def standard_error(self):
         """Return the binomial standard error, never zero (Agresti-Coull centre)."""
         centre = (self.successes + 2.0) / (self.n + 4.0)
-        return math.sqrt(centre * (1.0 - centre) / self.n)
+        return math.sqrt(centre * (1.0 - centre) / max(1, self.n))
 
     def interval(self, alpha):
         """Return the exact binomial interval (low, high)."""

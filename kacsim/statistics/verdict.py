@@ -188,7 +188,8 @@ def _part(part, entry, alpha):
 def _seen(measured, entry, alpha):
     """Return the smallest departure that all but `MISSED` of the runs see."""
     if entry["rule"] in COUNTED and isinstance(measured, estimate.Share):
-        return -math.expm1(math.log(MISSED) / measured.n)  # (1 - rate)**n = MISSED
+        # (1 - rate)**n = MISSED
+        return -math.expm1(math.log(MISSED) / measured.n) if measured.n else 1.0
     return measured.reach(alpha) - float(special.ndtri(MISSED)) * measured.standard_error
 
 

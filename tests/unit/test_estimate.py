@@ -78,6 +78,13 @@ def test_no_event_leaves_a_rate():
     assert (1.0 - high) ** 5000 == pytest.approx(0.01)
 
 
+def test_no_trial_leaves_everything_possible():
+    none = Share(0, 0)
+    assert math.isnan(none.value)
+    assert none.interval(0.01) == (0.0, 1.0)
+    assert none.standard_error > 0.0
+
+
 def test_exact_values_have_an_interval_of_one_value():
     assert Exact(3.5).interval(0.01) == (3.5, 3.5)
     assert Exact(3.5).reach(0.01) == 0.0

@@ -243,6 +243,7 @@ def test_a_printed_number_can_be_corrected_too():
 @pytest.mark.parametrize(
     ("measured", "expected"),
     [
+        (Share(0, 0), "undecided"),  # nothing to be seen in these draws
         (Share(0, 1_000), "undecided"),
         (Share(0, 9_600), "undecided"),  # upper end 1 - 0.0000625**(1 / 9600) = 0.0010077
         (Share(0, 9_700), "reproduced"),  # 0.0009974
@@ -309,6 +310,7 @@ def test_what_never_sees_is_met_in_95_of_100_runs():
     seen = only(NEVER, Share(0, 20_000))["seen"]
     assert stats.binom.sf(0, 20_000, seen) == pytest.approx(0.95)
     assert only(NEVER, Exact(0.0))["seen"] == 0.0
+    assert only(NEVER, Share(0, 0))["seen"] == 1.0
 
 
 def test_a_departure_is_seen_as_often_as_stated():

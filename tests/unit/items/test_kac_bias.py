@@ -127,6 +127,7 @@ def test_counts_of_forward_draws(findings):
     assert (own.measured.value, own.printed) == (pytest.approx(1.77), pytest.approx(RATE * TIME))
     assert spared.measured.value == pytest.approx(RATE * N * TIME / 2 - 5.5)
     assert spared.measured.standard_error == pytest.approx(0.002)
+    assert spared.measured.degrees == N_REPLICATES - 1
     assert spared.printed == pytest.approx(4.0 * NEVER)
 
 

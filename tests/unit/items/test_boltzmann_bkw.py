@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy import integrate, optimize
 
+from kacsim import items
 from kacsim.boltzmann import second_moment
 
 SIZES = {"n_draws": 25, "large_n_draws": 100, "n_replicates": 4}
@@ -123,6 +124,24 @@ def test_unbiased_takes_the_large_run_where_its_error_has_an_error():
         assert part.printed == 1.0
 
 
+def test_unbiased_stops_where_the_fourth_moment_is_infinite():
+    """Of one leaf E[h⁴] over M by quadrature; of a tree it is infinite from -log(1 - 1/E[h⁴]) on.
+
+    The number of leaves is geometric, P(n) = exp(-t) (1 - exp(-t))ⁿ⁻¹.
+    """
+
+    def integrand(c):
+        return 4.0 * math.pi * c * c * (printed(c, 0.0) / maxwellian(c)) ** 4 * maxwellian(c)
+
+    leaf = integrate.quad(integrand, 0.0, 20.0, epsabs=0.0)[0]
+    last = -math.log1p(-1.0 / leaf)
+    found, _ = made("boltzmann_fig3", np.zeros(4))
+    found = found.assign_coords(time=[last - 0.01, last + 0.01])
+    (one,) = fabricated.found("boltzmann_fig3", found).values()
+    labels = [f"c = {c} c_q, t = {last - 0.01:g}" for c in (1, 4)]
+    assert [part.label for part in one.parts] == labels
+
+
 def test_recursion_is_the_mean_over_speeds_with_its_own_error():
     found, _ = made("boltzmann_fig4", np.zeros(4))
     claims = fabricated.found("boltzmann_fig4", found)
@@ -216,3 +235,17 @@ def test_figures_whose_bars_are_counted_elsewhere_find_nothing():
     for name in ("boltzmann_fig5", *(f"{figure}_oversampled" for figure in FIGURES)):
         found, _ = made(name, np.zeros(4))
         assert fabricated.found(name, found) == {}
+
+
+@pytest.mark.parametrize("suffix", ["", "_oversampled"])
+@pytest.mark.parametrize("figure", FIGURES)
+def test_figs_3_and_5_are_against_time_and_figs_4_and_6_along_an_axis(figure, suffix):
+    found, _ = made(figure + suffix, np.zeros(4))
+    panels = items.load(figure + suffix).draw(found).axes
+    symbol = {"speed": "c", "threshold": "c_0"}[axis_of(figure)]
+    titles, labels = ["$t$ = 0.5", "$t$ = 3"], {f"${symbol}/c_q$"}
+    if figure in ("boltzmann_fig3", "boltzmann_fig5"):
+        titles = [f"${symbol}$ = {first} $c_q$" for first in (1, 4)]
+        labels = {"time $t$ in mean collision times"}
+    assert [panel.get_title() for panel in panels[:2]] == titles
+    assert {panel.get_xlabel() for panel in panels[2:4]} == labels

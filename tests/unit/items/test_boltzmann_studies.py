@@ -8,7 +8,7 @@ import pytest
 from scipy import stats
 
 from kacsim.boltzmann import bkw
-from kacsim.items import boltzmann_oversampling
+from kacsim.items import _probes, boltzmann_oversampling
 
 # The study of the variance
 
@@ -144,3 +144,11 @@ def test_later_times():
     # 80 and 20 realizations of variance 1, divisor n - 1 in each of four batches.
     errors = [math.sqrt(1.0 / 19 / 4), math.sqrt(1.0 / 4 / 4)]
     assert found.error.values == pytest.approx(np.array([errors] * 2))
+
+
+def test_the_worst_batch_is_the_farthest_from_the_mean_of_all():
+    """Means 1, 2, 3, 6: their mean is 3, their variance 14/3; means that are all equal give 0."""
+    means = [[[1.0, 2.0, 3.0, 6.0], [5.0, 5.0, 5.0, 5.0]]]
+    sample = fabricated.variables(mean=(("radius", "time", "replicate"), means))
+    expected = [[3.0 / math.sqrt(14.0 / 3.0), 0.0]]
+    assert _probes.worst_batch(sample) == pytest.approx(np.array(expected))

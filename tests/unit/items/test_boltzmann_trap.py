@@ -165,8 +165,8 @@ def test_fig9_growth_compares_the_large_run_at_two_times():
 
 def test_growth_between_times_of_different_density():
     """From a quarter turn on the breathing state's f changes: the variance is that of f."""
-    chosen = FIG9 | {"turn": [0.3, 1.0], "large_turn": [0.3, 1.0], "growth_turn": [0.3, 1.0]}
-    chosen["claim_turn"] = [0.3, 1.0]
+    chosen = FIG9 | {"turn": [0.3, 0.6, 1.0, 1.2], "claim_turn": [0.3, 1.0]}
+    chosen |= {"large_turn": [0.3, 1.0, 1.2], "growth_turn": [0.3, 1.0]}
     chosen = fabricated.settings("boltzmann_fig9", **chosen)
 
     def make(case):

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from fabricated import about, found, judged, reduced, settings, velocities, with_tvn
 
@@ -29,6 +30,21 @@ def test_the_difference_of_the_two_means(dataset):
     assert part.measured.degrees == pytest.approx(6.1, abs=0.3)  # 5 (1 + 9)**2 / (1 + 81)
     assert judged(finding)[0] == "contradicted"
     assert "Bird 0.01020, Poisson 0.00900" in finding.evidence
+
+
+def test_the_level_of_exact_draws_is_that_of_the_published_width(dataset):
+    levels = 0.00123 * np.arange(1, dataset.sizes["bin_width"] + 1)
+    other = dataset.assign(floor=("bin_width", levels))
+    evidence = found("kac_fig4", other)["kac_fig4_similar"].evidence
+    assert "exact draws 0.00123." in evidence
+
+
+def test_one_value_scatters_more_than_the_mean(dataset):
+    """By the root of the number of replicates, at every width."""
+    for name, error in ERRORS.items():
+        here = dataset.sel(algorithm=name)
+        assert here.tvn_error.values == pytest.approx(error, rel=0.05)
+        assert here.tvn_spread.values == pytest.approx(error * math.sqrt(6.0), rel=0.05)
 
 
 def test_the_histograms_are_those_of_the_first_replicate(dataset):

@@ -74,6 +74,16 @@ def test_uniforms_and_squares_stand_at_their_way(dataset):
     assert dataset.table_square.values == pytest.approx([2.0, 1.9])
 
 
+def test_trials_take_two_uniforms_each(dataset):
+    """The constant 2/(√π e), the largest f0 (at v = 1), on [-5, 5]; |v| exp(-2 v²/3) touches f0."""
+    predicted = dict(zip(WAYS, dataset.predicted.values, strict=True))
+    assert predicted["constant"] == pytest.approx(2.0 * 10.0 * 2.0 / (np.sqrt(np.pi) * np.e))
+    # The ratio |v| exp(-v²/3) · 2/√π is largest at v² = 3/2; the integral of the envelope is 3/2.
+    top = 2.0 / np.sqrt(np.pi) * np.sqrt(1.5) * np.exp(-0.5)
+    assert predicted["closer"] == pytest.approx(2.0 * 1.5 * top)
+    assert np.isnan(predicted["identity"])
+
+
 def test_the_second_moment_is_checked_for_the_exact_ways(dataset):
     finding = found("kac_initial", dataset)["kac_initial_square"]
     for name, part in zip(WAYS, finding.parts, strict=True):

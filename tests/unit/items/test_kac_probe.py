@@ -85,3 +85,11 @@ def test_a_velocity_that_is_not_probed_is_refused():
     ((key, sentence),) = kac_probe.problems(chosen)
     assert key == "claim_speed"
     assert "2.0" in sentence
+
+
+def test_probes_are_oversampled_from_the_time_on():
+    """The time from which on they are is one of them."""
+    chosen = settings("kac_probe", time=[0.5, 1.5, 2.0], oversampled_time=1.5, oversampling=1.7)
+    cases = kac_probe.cases(chosen)
+    assert [case.parameters["time"] for case in cases] == [[0.5], [1.5], [2.0]]
+    assert [case.parameters["oversampling"] for case in cases] == [1.0, 1.7, 1.7]

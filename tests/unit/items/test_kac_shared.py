@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from fabricated import settings, variables
+from fabricated import bins, settings, variables
 
 from kacsim.items import _kac, kac_statements
 
@@ -36,3 +36,12 @@ def test_the_energy_has_not_grown_before_anything_collides():
     """E (sum of v**2)**2 of independent velocities is N (15/4 + (N - 1) 9/4) at the start."""
     here = kac_statements._against_n(5, {"time": 1e-9, "time_step": 1e-9})
     assert here["growth"] == pytest.approx([0.0, 0.0], abs=1e-8)
+
+
+def test_bars_are_shares_of_all_draws():
+    """Of 50 draws 20 are beyond all bars, in both tails, and 30 in the bar from 0 to 0.1."""
+    counts = [bins({0.0: 50}), bins({-np.inf: 12, 0.05: 30, 8.0: 8})]
+    sample = variables(counts=(("replicate", "bin"), counts))
+    density, edges = _kac.histogram_of(sample, 0.1, replicate=1)
+    assert density.sum() * 0.1 == pytest.approx(0.6)
+    assert density[np.searchsorted(edges, 0.01) - 1] == pytest.approx(6.0)

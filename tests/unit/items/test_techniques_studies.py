@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from scipy import integrate, stats
 
+from kacsim.items import _techniques
+
 N, SEEDS = 4, 6  # replicates, and seeds of the area
 ROOT = math.sqrt(N - 1)
 SPREAD = np.array([1.0, -1.0, 1.0, -1.0])
@@ -235,3 +237,24 @@ def test_the_verdict_on_the_steps_hangs_on_the_flight_alone():
         found = fabricated.found("techniques_steps", dataset)
         words.append(chapter.word(found, "techniques_steps_velocity"))
     assert words == ["corrected", "contradicted"]
+
+
+def test_pearsons_p_value_has_a_degree_less_than_bins():
+    """Three shares of 100 draws, (36, 36, 28) for (40, 30, 30): exp(-x/2) of two degrees."""
+    statistic = 16 / 40 + 36 / 30 + 4 / 30
+    p_value = _techniques.chi_squared([36, 36, 28], [0.4, 0.3, 0.3])
+    assert p_value == pytest.approx(math.exp(-statistic / 2.0))
+
+
+@pytest.mark.parametrize(("face", "inward"), [(0, 0.5), (1, -0.5), (2, -0.2), (3, 0.2)])
+def test_a_drift_inward_makes_entering_particles_faster(face, inward):
+    """The flux v f(v) up to an edge over the whole; at -x the inward normal is +x."""
+    edges, temperature = np.array([0.0, 0.7, 1.9]), 1.3
+
+    def flux(v):
+        return v * math.exp(-((v - inward) ** 2) / (2.0 * temperature))
+
+    upto = [integrate.quad(flux, 0.0, edge)[0] for edge in (0.0, 0.7, 1.9, 20.0)]
+    chosen = {"drift": [0.5, -0.2, 0.0], "temperature": temperature}
+    law = _techniques.speed_law(chosen, edges, face)
+    assert law == pytest.approx(np.diff(upto) / upto[-1], rel=1e-6)

@@ -72,6 +72,13 @@ def test_a_row_belongs_to_items_of_its_text(key):
         assert name.startswith(f"{family}_")
 
 
+@pytest.mark.parametrize("name", FILES)
+def test_the_table_of_a_text_asks_every_item_that_has_a_row(name):
+    """An item that it does not ask has its rows left out without a word."""
+    gathered = {f"{name}_numbers", *items.load(f"{name}_numbers").USES}
+    assert {entry["item"] for entry in FILES[name].values()} <= gathered
+
+
 @pytest.mark.parametrize("key", ROWS)
 def test_a_row_says_where_what_and_why_in_a_line_each(key):
     for name in ("source", "text", "reason"):

@@ -1,6 +1,7 @@
 """The verdicts as the page shows them: every row with its set, its interval and its reason."""
 
 import math
+import re
 
 from kacsim.report.numbers import FIXED_SPACE, bound, number, pm, span, typeset
 from kacsim.statistics.verdict import KINDS, VERDICTS
@@ -40,7 +41,9 @@ def _columns(dataset, dim):
 
 def _worded(row, entry, parts):
     """Return the texts of a row."""
-    source = entry["source"].replace(" ", FIXED_SPACE).replace(f",{FIXED_SPACE}", ", ")
+    source = re.sub(
+        r"\b(sections?|Figs?\.|eqs?\.|exercises?) ", rf"\1{FIXED_SPACE}", entry["source"]
+    )
     words = [part["verdict"] for part in parts]
     counts = [f"{words.count(word)} {word}" for word in VERDICTS if word in words]
     return {

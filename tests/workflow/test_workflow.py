@@ -105,8 +105,8 @@ def test_changing_a_setting_changes_only_its_item(project):
     both = ("--configfile", "config/smoke.yaml", "more.yaml")
     again = project.samples_planned(*both)
     assert again == {
-        "kac-bird-forward-n10-t2-3x2001",
-        "kac-poisson-forward-n10-t2-3x2001",
+        "kac-bird-ancestral-n10-t2-3x2001",
+        "kac-poisson-ancestral-n10-t2-3x2001",
     }
 
 

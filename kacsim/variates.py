@@ -1,8 +1,9 @@
 """Random variates drawn inside kernels, each from a stream of `kacsim.streams`.
 
 Exponential and normal variates use the ziggurat of Marsaglia and Tsang (J. Stat. Softw. 5(8),
-2000) with 256 layers; one call of the generator gives the layer (8 low bits) and the abscissa (53
-high bits). Points on the circle use Marsaglia's polar method: no sine or cosine.
+2000) with 256 layers; one call of the generator gives the layer (8 low bits), a sign (the next)
+and the abscissa (53 high bits). Points on the circle are one of 256 fixed ones turned by a small
+angle (8 low bits and 53 high bits of one call): no rejection, no library's sine.
 """
 
 import math
@@ -11,6 +12,7 @@ import numpy as np
 from numba import int64, uint64
 
 from kacsim.kernels.jit import inlined
+from kacsim.kernels.wide import product
 from kacsim.streams import next_bits
 
 LAYERS = 256
@@ -56,15 +58,25 @@ def uniform(stream):
 
 @inlined
 def index_below(n, stream):
-    """Return a uniform integer 0..n-1, for 1 <= n < 2**53 (bias below n * 2**-53)."""
-    return int64(uniform(stream) * n)
+    """Return a uniform integer 0..n-1, for 1 <= n < 2**63 (bias below n * 2**-64)."""
+    return int64(product(next_bits(stream), uint64(n))[0])
+
+
+@inlined
+def two_below(n, m, stream):
+    """Return independent uniform integers 0..n-1 and 0..m-1 from one call.
+
+    The product of the bits with n has the first above the point; what is below it gives the second
+    in the same way (bias below n * m * 2**-64).
+    """
+    above, below = product(next_bits(stream), uint64(n))
+    return int64(above), int64(product(below, uint64(m))[0])
 
 
 @inlined
 def pair_below(n, stream):
     """Return an ordered pair of distinct uniform indices below n >= 2."""
-    i = index_below(n, stream)
-    j = index_below(n - 1, stream)
+    i, j = two_below(n, n - 1, stream)
     return i, j + int64(j >= i)
 
 
@@ -117,28 +129,112 @@ def normal(stream):
     return half_normal(stream) * random_sign(stream)
 
 
+# |v| under f0 of the Kac paper, density proportional to x**2 exp(-x**2): the line is cut into
+# strips whose hats, the largest density times the width, have the same area. The bits of one call
+# give the strip and a height; below the strip's least density the height is as good as a place.
+
+_S_MODE = 1.0
+
+
+def _strips(density, area):
+    """Return the edges of all strips but the last, the tail, each with a hat of the given area."""
+    edge = [0.0]
+    while len(edge) < LAYERS:
+        left, low, high = edge[-1], 0.0, _S_MODE - edge[-1]
+        if high > 0.0 and density(_S_MODE) * high >= area:  # the hat is the density on the right
+            for _ in range(64):
+                middle = 0.5 * (low + high)
+                less = density(left + middle) * middle < area
+                low, high = (middle, high) if less else (low, middle)
+            edge.append(left + high)
+        else:
+            edge.append(left + area / density(max(left, _S_MODE)))
+    return edge
+
+
+def _speed_density(x):
+    return x * x * math.exp(1.0 - x * x)
+
+
+def _speed_tail(x):
+    """Return the area under the density beyond x."""
+    return math.e * (0.5 * x * math.exp(-x * x) + 0.25 * math.sqrt(math.pi) * math.erfc(x))
+
+
+def _equal_strips():
+    """Return the edges for which the tail has the area of a hat."""
+    low, high = 0.5 * _speed_tail(0.0) / LAYERS, 2.0 * _speed_tail(0.0) / LAYERS
+    for _ in range(64):
+        area = 0.5 * (low + high)
+        try:
+            wide = _speed_tail(_strips(_speed_density, area)[-1]) < area
+        except (OverflowError, ZeroDivisionError):
+            wide = True
+        low, high = (low, area) if wide else (area, high)
+    return np.array(_strips(_speed_density, area))
+
+
+_S_EDGE = _equal_strips()
+_S_ENDS = np.array([_speed_density(x) for x in _S_EDGE])
+_S_LOW = np.append(np.minimum(_S_ENDS[:-1], _S_ENDS[1:]), 0.0)
+_S_HIGH = np.append(np.maximum(_S_ENDS[:-1], _S_ENDS[1:]), 0.0)
+_S_HIGH[np.searchsorted(_S_EDGE, _S_MODE, side="right") - 1] = 1.0
+_S_SURE = np.array([int(a / b * 2.0**53) if b else 0 for a, b in zip(_S_LOW, _S_HIGH)], dtype=np.int64)
+_S_WIDTH = np.append(np.diff(_S_EDGE), 0.0)
+_S_SCALE = np.array([w / s if s else 0.0 for w, s in zip(_S_WIDTH, _S_SURE)])
+_S_TAIL = float(_S_EDGE[-1])
+
+
+@inlined
+def maxwell_speed(stream):
+    """Return a variate of density 4 / sqrt(pi) x**2 exp(-x**2), x > 0."""
+    while True:
+        bits = next_bits(stream)
+        strip = int64(bits & uint64(LAYERS - 1))
+        height = int64(bits >> uint64(11))
+        if height < _S_SURE[strip]:
+            return _S_EDGE[strip] + height * _S_SCALE[strip]
+        if strip == LAYERS - 1:
+            while True:
+                # The square beyond the tail's: sqrt(1 + y) exp(-y / 2) is largest at 0.
+                y = exponential(stream) / (_S_TAIL * _S_TAIL - 0.5)
+                if uniform(stream) < math.sqrt(1.0 + y) * math.exp(-0.5 * y):
+                    return _S_TAIL * math.sqrt(1.0 + y)
+        x = _S_EDGE[strip] + uniform(stream) * _S_WIDTH[strip]
+        step = _S_HIGH[strip] - _S_LOW[strip]
+        if _S_LOW[strip] + uniform(stream) * step < x * x * math.exp(1.0 - x * x):
+            return x
+
+
+_POINTS = 256  # on the circle, the first at angle 0
+_TURN = 2.0 * math.pi / _POINTS
+_COS_SIN = np.array([(math.cos(k * _TURN), math.sin(k * _TURN)) for k in range(_POINTS)]).ravel()
+
+
+@inlined
+def _turned(stream):
+    """Return (place of a uniform fixed point, cos, sin of a uniform turn within half a step)."""
+    bits = next_bits(stream)
+    turn = (int64(bits) >> int64(11)) * (_TURN * _UNIT)  # a signed number of 53 bits
+    square = turn * turn
+    cos = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
+    sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)))
+    return 2 * int64(bits & uint64(_POINTS - 1)), cos, sin
+
+
 @inlined
 def unit_circle(stream):
-    """Return (cos, sin) of a uniform angle (polar method, angle doubled; 2.55 uniforms)."""
-    while True:
-        x = 2.0 * uniform(stream) - 1.0
-        y = uniform(stream)
-        q = x * x + y * y
-        if 0.0 < q <= 1.0:
-            twice = 2.0 / q
-            return 1.0 - y * y * twice, x * y * twice
+    """Return (cos, sin) of a uniform angle."""
+    place, cos, sin = _turned(stream)
+    x, y = _COS_SIN[place], _COS_SIN[place + 1]
+    return x * cos - y * sin, y * cos + x * sin
 
 
 @inlined
 def squared_cosine(stream):
-    """Return cos(theta)**2 of a uniform angle, i.e. a Beta(1/2, 1/2) variate (2.55 uniforms)."""
-    while True:
-        x = uniform(stream)
-        y = uniform(stream)
-        x *= x
-        q = x + y * y
-        if 0.0 < q <= 1.0:
-            return x / q
+    """Return cos(theta)**2 of a uniform angle, (1 + cos(2 theta)) / 2: a Beta(1/2, 1/2) variate."""
+    place, cos, sin = _turned(stream)
+    return max(0.0, 0.5 + 0.5 * (_COS_SIN[place] * cos - _COS_SIN[place + 1] * sin))
 
 
 @inlined

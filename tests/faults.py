@@ -19,6 +19,9 @@ from pathlib import Path
 from breaking import flip, remove, swap, truncate, zero
 from runs import SMOKE, FaultError, Run, same
 
+# Seconds. Snakemake's handler of a signal waits for the lock that its scheduler holds while it
+# chooses jobs: a signal at that moment stops both for ever (seen once, snakemake 9.27).
+PATIENCE = 180
 KINDS = {  # kind of file -> pattern below the working folder
     "sample": "results/samples/*.nc",
     "dataset": "results/datasets/*.nc",
@@ -113,10 +116,18 @@ def interrupt(make, expected, full):
         process = run.start()
         _wait_for_a_moment(choice, run, process, full)
         _signal(process, number)
-        interrupted += process.wait() != 0
+        try:
+            interrupted += process.wait(timeout=PATIENCE) != 0
+        except subprocess.TimeoutExpired:  # see PATIENCE: a user would end it as a whole
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            run.run("--unlock")
+            continue
         if left := run.ends() or run.leftovers():
             raise FaultError(f"{signal.Signals(number).name} left {left}")
     same(run.complete(), expected, "after signals")
+    if not interrupted:
+        raise FaultError("no signal ended a run")
     return interrupted
 
 

@@ -29,7 +29,7 @@ def seed():
 
 @pytest.fixture(scope="session")
 def shared_folder(tmp_path_factory):
-    """Return a temporary folder of this session, the same for all its processes."""
+    """Return a temporary folder of this run of tests, the same for all its processes."""
     own = tmp_path_factory.getbasetemp()
     return own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
 

@@ -1,4 +1,4 @@
-"""The two numba decorators of the package."""
+"""The three numba decorators of the package."""
 
 import numba
 
@@ -15,3 +15,6 @@ def kernel(function):
 
 # Called from kernels: forced inlining spares an atomic reference count of the stream per call.
 inlined = numba.njit(forceinline=True, error_model=ERROR_MODEL)
+
+# Called from kernels for what is rare and long: inlining it everywhere would cost compile time.
+apart = numba.njit(error_model=ERROR_MODEL)

@@ -5,44 +5,49 @@ Exponential and normal variates use the ziggurat of Marsaglia and Tsang (J. Stat
 high bits). Points on the circle use Marsaglia's polar method: no sine or cosine.
 """
 
-import math
+from decimal import Decimal
 
 import numpy as np
 from numba import int64, uint64
 
+from kacsim.elementary.decimals import precise
+from kacsim.elementary.exponential import exp
+from kacsim.elementary.logarithm import log, log1p
 from kacsim.kernels.jit import inlined
 from kacsim.streams import next_bits
 
 LAYERS = 256
+MOST_FAILURES = 2**62  # of trials that hardly ever succeed
 _UNIT = 2.0**-53
 
 
+@precise
 def _ziggurat(density, inverse, tail, area):
     """Return the layers' right edges, widths of the sure part and densities.
 
     Parameters
     ----------
-    density, inverse : decreasing function with density(0) = 1, and its inverse
+    density, inverse : decreasing function of decimals with density(0) = 1, and its inverse
     tail : abscissa where the tail begins
     area : common area of the layers, the lowest one including the tail
     """
-    edge = np.zeros(LAYERS + 1)
-    edge[0], edge[1] = area / density(tail), tail
-    for i in range(2, LAYERS):
-        edge[i] = inverse(area / edge[i - 1] + density(edge[i - 1]))
-    sure = np.array([int(edge[i + 1] / edge[i] * 2.0**53) for i in range(LAYERS)], dtype=np.int64)
-    height = np.array([density(x) for x in edge])
-    return edge, edge * _UNIT, sure, height
+    tail, area = Decimal(tail), Decimal(area)
+    edges = [area / density(tail), tail]
+    while len(edges) < LAYERS:
+        edges.append(inverse(area / edges[-1] + density(edges[-1])))
+    edges.append(Decimal(0))
+    edge, height = np.array(edges, dtype=float), np.array([float(density(x)) for x in edges])
+    return edge, edge * _UNIT, (edge[1:] / edge[:-1] * 2.0**53).astype(np.int64), height
 
 
 _E_TAIL = 7.69711747013104972
 _E_EDGE, _E_SCALE, _E_SURE, _E_HEIGHT = _ziggurat(
-    lambda x: math.exp(-x), lambda y: -math.log(y), _E_TAIL, 3.9496598225815571993e-3
+    lambda x: (-x).exp(), lambda y: -y.ln(), _E_TAIL, 3.9496598225815571993e-3
 )
 _N_TAIL = 3.6541528853610088
 _N_EDGE, _N_SCALE, _N_SURE, _N_HEIGHT = _ziggurat(
-    lambda x: math.exp(-0.5 * x * x),
-    lambda y: math.sqrt(-2.0 * math.log(y)),
+    lambda x: (-x * x / 2).exp(),
+    lambda y: (-2 * y.ln()).sqrt(),
     _N_TAIL,
     4.92867323399e-3,
 )
@@ -85,9 +90,9 @@ def exponential(stream):
         if position < _E_SURE[layer]:
             return x
         if layer == 0:
-            return _E_TAIL - math.log(1.0 - uniform(stream))
+            return _E_TAIL - log(1.0 - uniform(stream))
         step = _E_HEIGHT[layer + 1] - _E_HEIGHT[layer]
-        if _E_HEIGHT[layer] + uniform(stream) * step < math.exp(-x):
+        if _E_HEIGHT[layer] + uniform(stream) * step < exp(-x):
             return x
 
 
@@ -103,11 +108,11 @@ def half_normal(stream):
             return x
         if layer == 0:
             while True:
-                x = -math.log(1.0 - uniform(stream)) / _N_TAIL
-                if -2.0 * math.log(1.0 - uniform(stream)) > x * x:
+                x = -log(1.0 - uniform(stream)) / _N_TAIL
+                if -2.0 * log(1.0 - uniform(stream)) > x * x:
                     return _N_TAIL + x
         step = _N_HEIGHT[layer + 1] - _N_HEIGHT[layer]
-        if _N_HEIGHT[layer] + uniform(stream) * step < math.exp(-0.5 * x * x):
+        if _N_HEIGHT[layer] + uniform(stream) * step < exp(-0.5 * x * x):
             return x
 
 
@@ -149,10 +154,11 @@ def failures_before_success(scale, stream):
     ----------
     scale : -1 / log(1 - p) from `gap_scale`; 0 for p = 1
     """
-    return math.floor(exponential(stream) * scale)
+    gap = exponential(stream) * scale
+    return int64(gap) if gap < MOST_FAILURES else MOST_FAILURES
 
 
 @inlined
 def gap_scale(probability):
     """Return the scale of `failures_before_success` for 0 <= p <= 1 (inf for p = 0)."""
-    return -1.0 / math.log1p(-probability)
+    return 1.0 / abs(log1p(-probability))

@@ -1,11 +1,9 @@
 """The public estimators of the BKW mode and of extinction: checked arguments, physical units."""
 
-import numpy as np
-
 from kacsim import checks
 from kacsim.boltzmann import bkw, bkw_tree, null_collisions
 from kacsim.boltzmann.constants import MAX_NODES
-from kacsim.boltzmann.estimators import estimate_from, sizes, vector_of
+from kacsim.boltzmann.estimators import estimate_from, length, sizes, vector_of
 from kacsim.samplers import declared
 
 
@@ -45,7 +43,7 @@ def estimate_bkw(
         If a tree exceeds max_nodes.
     """
     tree = {"oversampling": oversampling, "onset": onset, "max_nodes": max_nodes}
-    speed = float(np.linalg.norm(vector_of("velocity", velocity)))
+    speed = length(vector_of("velocity", velocity))
     checks.raise_problems(
         checks.not_negative("time", time),
         checks.positive("rms_velocity", rms_velocity),

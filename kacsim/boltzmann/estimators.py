@@ -7,6 +7,7 @@ import numpy as np
 
 from kacsim import checks
 from kacsim.streams import CHUNK, new_stream
+from kacsim.sums import add_powers
 
 SMALLEST = float(np.finfo(float).tiny)
 BudgetError = checks.BudgetError
@@ -58,12 +59,12 @@ def chunks(draw, n_realizations, stream):
 
 def estimate_from(draw, factor, n_realizations, seed, name):
     """Return the Estimate of factor times the drawn values."""
-    total, square, largest, nodes = 0.0, 0.0, 0.0, 0
+    sums, largest, nodes = np.zeros(2), 0.0, 0
     for values, counts in chunks(draw, n_realizations, new_stream(seed, name)):
-        total += values.sum()
-        square += (values * values).sum()
+        add_powers(values, sums)
         largest = max(largest, float(np.abs(values).max()))
         nodes += int(counts.sum())
+    total, square = map(float, sums)
     mean = total / n_realizations
     # A product below the smallest normal number has lost its digits, a factor of 0 everything.
     lost = factor == 0.0 or (mean != 0.0 and abs(factor * mean) < SMALLEST)
@@ -90,6 +91,16 @@ def vector_of(name, value):
     if vector.shape != (3,) or not (np.abs(vector) < checks.LARGEST).all():
         raise ValueError(f"{name} = {value!r}: must be a finite number or three of them")
     return vector
+
+
+def product(a, b):
+    """Return the scalar product of two vectors: a library's has another order of its sums."""
+    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
+
+
+def length(vector):
+    """Return the length of a vector, float64[3]."""
+    return math.sqrt(product(vector, vector))
 
 
 def sizes(n_realizations, seed):

@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+from kacsim.elementary.circular import cos_sin
+from kacsim.elementary.exponential import exp
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import exponential, normal, uniform
 
@@ -19,17 +21,17 @@ START, STOP, VELOCITY, POSITION, PARENT = 0, 1, 2, 5, 8
 def start(square, equilibrium):
     """Return f(c; 0) for c**2, c_q = 1: the equilibrium (eq. 11) or the BKW mode (eq. 18)."""
     if equilibrium:
-        return math.exp(-0.5 * square) / math.sqrt(2.0 * math.pi) ** 3
-    return 5.0 / 9.0 * square * math.exp(-square / 1.2) / math.sqrt(1.2 * math.pi) ** 3
+        return exp(-0.5 * square) / math.sqrt(2.0 * math.pi) ** 3
+    return 5.0 / 9.0 * square * exp(-square / 1.2) / math.sqrt(1.2 * math.pi) ** 3
 
 
 @inlined
 def isotropic(stream):
     """Return a uniform point of the unit sphere."""
     z = 2.0 * uniform(stream) - 1.0
-    angle = 2.0 * math.pi * uniform(stream)
+    cos, sin = cos_sin(2.0 * math.pi * uniform(stream))
     level = math.sqrt(1.0 - z * z)
-    return level * math.cos(angle), level * math.sin(angle), z
+    return level * cos, level * sin, z
 
 
 @inlined
@@ -62,7 +64,7 @@ def probe(x, y, z, time, equilibrium, nodes, stream):
     ax, ay, az, bx, by, bz, square = collision(x, y, z, stream)
     first = probe(ax, ay, az, time, equilibrium, nodes, stream)
     second = probe(bx, by, bz, time, equilibrium, nodes, stream)
-    return math.sqrt(2.0 * math.pi) ** 3 * math.exp(0.5 * square) * first * second
+    return math.sqrt(2.0 * math.pi) ** 3 * exp(0.5 * square) * first * second
 
 
 @kernel
@@ -73,7 +75,7 @@ def estimate(values, nodes, speed, time, equilibrium, stream):
     -------
     bool, True: there is no budget
     """
-    maxwellian = math.exp(-0.5 * speed * speed) / math.sqrt(2.0 * math.pi) ** 3
+    maxwellian = exp(-0.5 * speed * speed) / math.sqrt(2.0 * math.pi) ** 3
     count = np.zeros(1, np.int64)
     for k in range(values.size):
         count[0] = 0

@@ -8,9 +8,10 @@ import math
 
 import numpy as np
 
-from kacsim.boltzmann import trap
 from kacsim.boltzmann.literal import isotropic
 from kacsim.boltzmann.trap import MAJORANT
+from kacsim.elementary.circular import cos_sin
+from kacsim.elementary.exponential import exp
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import exponential, normal, uniform
 
@@ -18,15 +19,15 @@ from kacsim.variates import exponential, normal, uniform
 @inlined
 def maxwellian(square, width):
     """Return the normal density in three dimensions at a squared distance."""
-    return math.exp(-0.5 * square / width**2) / (math.sqrt(2.0 * math.pi) * width) ** 3
+    return exp(-0.5 * square / width**2) / (math.sqrt(2.0 * math.pi) * width) ** 3
 
 
 @inlined
 def state(time, breathing):
     """Return (variance of positions, flow / r, thermal speed) of eq. (31), phi0 = 0."""
-    phi = 2.0 * time
-    size = 1.0 + breathing * math.sin(phi)
-    return size, breathing * math.cos(phi) / size, math.sqrt((1.0 - breathing**2) / size)
+    cos, sin = cos_sin(2.0 * time)
+    size = 1.0 + breathing * sin
+    return size, breathing * cos / size, math.sqrt((1.0 - breathing**2) / size)
 
 
 @inlined
@@ -40,14 +41,14 @@ def start(point, breathing, relaxed):
     if relaxed:
         return maxwellian(radius, math.sqrt(size)) * maxwellian(square, width)
     s = square / width**2
-    shape = 5.0 / 9.0 * s * math.exp(-s / 1.2) / (math.sqrt(1.2 * math.pi) * width) ** 3
+    shape = 5.0 / 9.0 * s * exp(-s / 1.2) / (math.sqrt(1.2 * math.pi) * width) ** 3
     return maxwellian(radius, math.sqrt(size)) * shape
 
 
 @inlined
 def back(point, span):
     """Return the place and velocity a phase earlier on the free trajectory, float64[6]."""
-    cos, sin = math.cos(span), math.sin(span)
+    cos, sin = cos_sin(span)
     earlier = np.empty(6)
     for k in range(3):
         earlier[k] = point[k] * cos - point[3 + k] * sin
@@ -107,7 +108,7 @@ def probe(point, time, coupling, breathing, relaxed, nodes, stream):
     )
     weight = coupling / (MAJORANT * coupling * density)
     weight *= (math.sqrt(2.0 * math.pi) * width) ** 3
-    weight *= math.exp(0.5 * (dx * dx + dy * dy + dz * dz))
+    weight *= exp(0.5 * (dx * dx + dy * dy + dz * dz))
     return one + weight * (three * four - one * two)
 
 
@@ -133,7 +134,7 @@ def estimate(values, nodes, radius, radial, time, coupling, breathing, relaxed, 
 
 def trap_literal(radius, time, *, initial, breathing, coupling):
     """Return the printed algorithm where the flow has the probe's velocity at time 0."""
-    speed = float(trap.flow(radius, 0.0, breathing))
+    speed = float(breathing) * float(radius)
     fixed = float(radius), speed, float(time), float(coupling), float(breathing)
     relaxed = initial == "breathing"
     return lambda values, nodes, stream: estimate(values, nodes, *fixed, relaxed, stream)

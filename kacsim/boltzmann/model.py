@@ -15,28 +15,30 @@ import math
 import numpy as np
 from numba import int64
 
+from kacsim.elementary.exponential import exp
 from kacsim.kernels.jit import inlined
 from kacsim.variates import exponential, half_normal, squared_cosine, uniform
 
 BKW_LAW, KAC_LAW = 0, 1
+MOST_COPIES = 2.0**53  # whole numbers of sub-estimates, more than any budget
 DEPTH = 4096  # levels of the stack; a path of so many collisions within the time does not occur
 # Columns of the two workspaces of `tree`, a row per level.
 SECOND, WHEN, ENERGY, SUM, FIRST_MEAN = range(5)
 SIDE, LEFT, COPIES = range(3)
-BKW_LEAF = 5.0 / 9.0 * (5.0 / 3.0) ** 1.5
+BKW_LEAF = 25.0 / 27.0 * math.sqrt(5.0 / 3.0)
 KAC_LEAF = 3.0 * math.sqrt(3.0)
 
 
 @inlined
 def bkw_leaf(x):
     """Return f(c; 0) / M(c) of the BKW mode, x = c**2 / c_q**2 (Boltzmann paper, eq. 18)."""
-    return BKW_LEAF * x * math.exp(-x / 3.0)
+    return BKW_LEAF * x * exp(-x / 3.0)
 
 
 @inlined
 def kac_leaf(x):
     """Return f0 / M of the Kac paper, x = v**2 / (3/2), M of eq. (9): 3 sqrt(3) x exp(-x)."""
-    return KAC_LEAF * x * math.exp(-x)
+    return KAC_LEAF * x * exp(-x)
 
 
 @inlined
@@ -65,8 +67,8 @@ def kac_scatter(x, stream):
 @inlined
 def copies(oversampling, stream):
     """Return a number of sub-estimates, floor(m) or one more, of mean m."""
-    whole = math.floor(oversampling)
-    return int64(whole) + int64(uniform(stream) < oversampling - whole)
+    whole = int64(min(oversampling, MOST_COPIES))
+    return whole + int64(uniform(stream) < oversampling - whole)
 
 
 @inlined
@@ -152,4 +154,5 @@ def speed_beyond(threshold, stream):
 @inlined
 def shell(radius, variance):
     """Return 4 pi times the normal density of a variance per axis at a radius."""
-    return math.sqrt(2.0 / math.pi) * variance**-1.5 * math.exp(-0.5 * radius * radius / variance)
+    bell = exp(-0.5 * radius * radius / variance)
+    return math.sqrt(2.0 / math.pi) * bell / (variance * math.sqrt(variance))

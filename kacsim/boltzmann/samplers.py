@@ -3,12 +3,11 @@
 import functools
 import math
 
-from kacsim.boltzmann.constants import BREATHING, COUPLING, MAX_NODES
+from kacsim.boltzmann.constants import BREATHING, COUPLING, LARGEST_PHASE, MAX_NODES
 from kacsim.checks import (
     Problem,
     at_least,
     count,
-    finite,
     is_number,
     not_negative,
     one_of,
@@ -52,6 +51,19 @@ def slant(name, value):
         yield Problem(name, value, "must be greater than -1 and less than 1")
 
 
+def angle(name, value):
+    """Yield a problem unless the value is a phase whose sine is known."""
+    if not is_number(value) or abs(value) > LARGEST_PHASE:
+        yield Problem(name, value, f"must be a number of at most {LARGEST_PHASE:g} either way")
+
+
+def phase(name, value):
+    """Yield a problem unless the value is a phase omega t, not before the start."""
+    yield from not_negative(name, value)
+    if is_number(value) and value > LARGEST_PHASE:
+        yield Problem(name, value, f"must be at most {LARGEST_PHASE:g} radians")
+
+
 def literal_time(name, value):
     """Yield a problem unless plain recursion ends before long."""
     yield from not_negative(name, value)
@@ -78,7 +90,7 @@ TIMES = grid("time", "t", "times t, in mean collision times")
 SPEEDS = grid("speed", "c", "speeds of the probes, in RMS velocities per axis")
 THRESHOLDS = grid("threshold", "c", "thresholds, in RMS velocities per axis")
 RADII = grid("radius", "r", "radii of the probes, in c_eq / omega")
-TRAP_TIMES = grid("time", "t", "times t, in 1 / omega")
+TRAP_TIMES = grid("time", "t", "times t, in 1 / omega", phase)
 LITERAL_TIMES = grid("time", "t", "times t, at most 10", literal_time)
 
 
@@ -104,7 +116,7 @@ SAMPLING_LAWS = (
         slant, 0.0,
     ),
 )  # fmt: skip
-PHASE = quantity("start_phase", "phi", "phase phi0 of the breathing state", finite, 0.0)
+PHASE = quantity("start_phase", "phi", "phase phi0 of the breathing state", angle, 0.0)
 INITIAL = initial_state(*STARTS, default="bkw")
 TRAP = (RADII, TRAP_TIMES, INITIAL, EPS, PHASE, STRENGTH, *SAMPLING_LAWS, BUDGET)
 

@@ -7,6 +7,7 @@ from kacsim.boltzmann.estimators import chunks
 from kacsim.kernels.lookup import named
 from kacsim.store import described
 from kacsim.streams import new_stream
+from kacsim.sums import add_powers
 
 KEPT = 100_000  # realizations are not kept: for cases that hold other first values
 RECORDED_NODES = 64  # larger trees are not recorded
@@ -55,8 +56,10 @@ def sample(case, progress):
                 stream = new_stream(case.seed, f"{case.id} probe {i} {j}", replicate)
                 here = i, j, row
                 for values, nodes in chunks(draw, case.n_draws, stream):
-                    sums["mean"][here] += values.sum()
-                    sums["mean_square"][here] += (values * values).sum()
+                    both = np.zeros(2)
+                    add_powers(values, both)
+                    sums["mean"][here] += both[0]
+                    sums["mean_square"][here] += both[1]
                     sums["largest"][here] = max(sums["largest"][here], values.max())
                     sums["nodes"][here] += nodes.sum()
                     top[i, j] = np.partition(np.append(top[i, j], values), -n_top)[-n_top:]

@@ -10,7 +10,8 @@ import numpy as np
 
 from kacsim.boltzmann import bkw
 
-MAJORANT = (5.0 / 3.0) ** 2.5 / math.e  # largest ratio of the BKW start to its Maxwellian, eq. (37)
+# Largest ratio of the BKW start to its Maxwellian, eq. (37): (5/3)**(5/2) / e.
+MAJORANT = 25.0 / 9.0 * math.sqrt(5.0 / 3.0) / math.e
 
 
 def swelling(phase, breathing, start_phase=0.0):

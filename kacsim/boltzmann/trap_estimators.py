@@ -5,7 +5,8 @@ import numpy as np
 from kacsim import checks
 from kacsim.boltzmann import trap, trap_tree
 from kacsim.boltzmann.constants import BREATHING, MAX_NODES
-from kacsim.boltzmann.estimators import estimate_from, sizes, vector_of
+from kacsim.boltzmann.estimators import estimate_from, length, product, sizes, vector_of
+from kacsim.boltzmann.samplers import phase
 from kacsim.samplers import declared
 
 PUBLISHED = {"majorant_factor": 1.0, "spread": 1.0, "anisotropy": 0.0}  # laws of the text
@@ -14,9 +15,15 @@ PUBLISHED = {"majorant_factor": 1.0, "spread": 1.0, "anisotropy": 0.0}  # laws o
 def _scaled(gas):
     """Return (unit of length, coupling of the reduced problem); ValueError names a wrong one."""
     checks.raise_problems(*(checks.positive(name, value) for name, value in gas.items()))
-    length = gas["rms_velocity"] / gas["angular_frequency"]
-    coupling = gas["amount"] * gas["cross_section"] / length**2 / gas["rms_velocity"]
-    return length, coupling
+    unit = gas["rms_velocity"] / gas["angular_frequency"]
+    return unit, gas["amount"] * gas["cross_section"] / unit**2 / gas["rms_velocity"]
+
+
+def _turned(angular_frequency, time):
+    """Return the phase omega t; ValueError if it is too large."""
+    turned = float(angular_frequency * time)
+    checks.raise_problems(phase("angular_frequency * time", turned))
+    return turned
 
 
 def estimate_trap(
@@ -80,15 +87,15 @@ def estimate_trap(
     checks.raise_problems(
         checks.not_negative("time", time), declared("trap", laws), sizes(n_realizations, seed)
     )
-    length, coupling = _scaled(gas)
-    radius = float(np.linalg.norm(place)) / length
-    along = place / np.linalg.norm(place) if radius > 0.0 else np.array([1.0, 0.0, 0.0])
-    radial = float(speed @ along) / rms_velocity
-    tangential = float(np.linalg.norm(speed - (speed @ along) * along)) / rms_velocity
-    phase = float(angular_frequency * time)
-    draw = trap_tree.at(radius, radial, tangential, phase, coupling=coupling, **laws)
-    state = trap.breathing_density(radius, radial, tangential, phase, breathing, start_phase)
-    factor = amount * float(state) / (length * rms_velocity) ** 3
+    unit, coupling = _scaled(gas)
+    turned = _turned(angular_frequency, time)
+    radius = length(place) / unit
+    along = place / length(place) if radius > 0.0 else np.array([1.0, 0.0, 0.0])
+    outward = product(speed, along)
+    radial, tangential = outward / rms_velocity, length(speed - outward * along) / rms_velocity
+    draw = trap_tree.at(radius, radial, tangential, turned, coupling=coupling, **laws)
+    state = trap.breathing_density(radius, radial, tangential, turned, breathing, start_phase)
+    factor = amount * float(state) / (unit * rms_velocity) ** 3
     return estimate_from(draw, factor, n_realizations, seed, "boltzmann.estimate_trap")
 
 
@@ -129,7 +136,7 @@ def estimate_trap_fraction(
         declared("trap_fraction", laws),
         sizes(n_realizations, seed),
     )
-    length, coupling = _scaled(gas)
-    phase = angular_frequency * time
-    draw = trap_tree.trap_fraction(radius / length, phase, coupling=coupling, **laws)
+    unit, coupling = _scaled(gas)
+    turned = _turned(angular_frequency, time)
+    draw = trap_tree.trap_fraction(radius / unit, turned, coupling=coupling, **laws)
     return estimate_from(draw, 1.0, n_realizations, seed, "boltzmann.estimate_trap_fraction")

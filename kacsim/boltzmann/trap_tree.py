@@ -3,25 +3,34 @@
 A realization is the breathing state (31) times W, and a collision keeps the product of the
 breathing state over the pair, so that the algorithm becomes W = W1 + q (W3 W4 - W1 W2), with
 q = kappa eta / majorant for the sampling laws of the text. A leaf gives W = f(0) / breathing state.
-By symmetry a node is its radius, and the radial and tangential components of its velocity.
-Units as in `kacsim.boltzmann.trap`.
+Nodes and their trajectories are those of `kacsim.boltzmann.trap_node`.
 """
 
 import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import int64
 
-from kacsim.boltzmann.model import DEPTH, bkw_leaf, shell, speed_beyond
-from kacsim.boltzmann.trap import MAJORANT, flow
+from kacsim.boltzmann.model import DEPTH, shell, speed_beyond
+from kacsim.boltzmann.trap import MAJORANT
+from kacsim.boltzmann.trap_node import (
+    breathing_state,
+    node_at,
+    squared_radius,
+    start_ratio,
+    swelling,
+    trajectory,
+)
+from kacsim.elementary.circular import cos_sin
+from kacsim.elementary.exponential import exp
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import exponential, normal, uniform
+from kacsim.variates import exponential, half_normal, normal, uniform, unit_circle
 
-# Columns of a level of the stack of `tree`: phase and radius of a collision, its weight q, the
-# radial components of the four velocities, each followed by the tangential one, and W1 to W4.
-WHEN, WHERE, WEIGHT = range(3)
-BEFORE, PARTNER, AFTER, PARTNER_AFTER = range(3, 11, 2)
+# Columns of a level of the stack of `tree`: phase of a collision, its cosine and sine, the radius,
+# the weight q, the radial components of the three new velocities, each followed by the tangential
+# one, and W1 to W4.
+WHEN, COS, SIN, WHERE, WEIGHT = range(5)
+PARTNER, AFTER, PARTNER_AFTER = range(5, 11, 2)
 W1, W2, W3, W4 = range(11, 15)
 
 
@@ -30,46 +39,19 @@ class Laws(NamedTuple):
 
     Attributes
     ----------
-    rate : of the inner majorant
+    span : mean span between collisions at the inner majorant
+    thinnest : cube of the least 1 + eps sin(phi), where the cloud is densest
     ratio : q, the real frequency over the raised one
     spread, anisotropy : of the laws of c* and u', as in `collide`
     start : 1.0 for the BKW start and 0.0 for the breathing state
     """
 
-    rate: float
+    span: float
+    thinnest: float
     ratio: float
     spread: float
     anisotropy: float
     start: float
-
-
-class Breathing(NamedTuple):
-    """The breathing state: eps, phi0, and at time 0 flow / r and the thermal speed squared."""
-
-    amplitude: float
-    phase: float
-    flow: float
-    square: float
-
-
-@inlined
-def back(radius, radial, tangential, angle):
-    """Return (r, radial, tangential) an angle omega (t - t') earlier on the free trajectory."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    along, across = radius * cos - radial * sin, -tangential * sin
-    speed_along, speed_across = radial * cos + radius * sin, tangential * cos
-    there = math.sqrt(along * along + across * across)
-    if there == 0.0:
-        return 0.0, math.hypot(speed_along, speed_across), 0.0
-    inward = (along * speed_along + across * speed_across) / there
-    return there, inward, abs(radius * tangential) / there
-
-
-@inlined
-def start_ratio(radius, radial, tangential, state):
-    """Return W of a leaf at time 0: the BKW start over its Maxwellian."""
-    gap = radial - state.flow * radius
-    return bkw_leaf((gap * gap + tangential * tangential) / state.square)
 
 
 @inlined
@@ -84,29 +66,39 @@ def collide(radial, tangential, flow, width, spread, anisotropy, here, stream):
     anisotropy : u' has the density (1 + anisotropy mu) / 4 pi, mu the radial component
     here : float64[15], a level of the stack, overwritten from `PARTNER` to `W1`
     """
-    x, y, z = normal(stream), normal(stream), normal(stream)
-    square = spread * spread * (x * x + y * y + z * z)
-    weight = spread**3 * math.exp(-0.5 * square * (1.0 - 1.0 / (spread * spread)))
-    x, y, z = flow + width * spread * x, width * spread * y, width * spread * z
+    x, y, z = normal(stream), normal(stream), half_normal(stream)
+    weight = 1.0
+    if spread != 1.0:
+        square = spread * spread * (x * x + y * y + z * z)
+        weight = spread**3 * exp(-0.5 * square * (1.0 - 1.0 / (spread * spread)))
+    width *= spread
+    x, y, z = flow + width * x, width * y, width * z
     mu = 2.0 * uniform(stream) - 1.0
     if anisotropy != 0.0:
         mu = (math.sqrt((1.0 - anisotropy) ** 2 + 2.0 * anisotropy * (1.0 + mu)) - 1.0) / anisotropy
         weight /= 1.0 + anisotropy * mu
-    angle = 2.0 * math.pi * uniform(stream)
-    level = math.sqrt(max(0.0, 1.0 - mu * mu))
-    gap = math.sqrt((radial - x) ** 2 + (tangential - y) ** 2 + z * z)
-    half_x, half_y, half_z = (
-        0.5 * gap * mu,
-        0.5 * gap * level * math.cos(angle),
-        0.5 * gap * level * math.sin(angle),
-    )
-    mean_x, mean_y, mean_z = 0.5 * (radial + x), 0.5 * (tangential + y), 0.5 * z
-    here[PARTNER], here[PARTNER + 1] = x, math.sqrt(y * y + z * z)
-    here[AFTER] = mean_x + half_x
-    here[AFTER + 1] = math.sqrt((mean_y + half_y) ** 2 + (mean_z + half_z) ** 2)
-    here[PARTNER_AFTER] = mean_x - half_x
-    here[PARTNER_AFTER + 1] = math.sqrt((mean_y - half_y) ** 2 + (mean_z - half_z) ** 2)
+    # Half of the relative velocity turned to u', and the mean one: squares of what is across.
+    z_square, sum_y = z * z, tangential + y
+    gap = 0.25 * ((radial - x) ** 2 + (tangential - y) ** 2 + z_square)
+    half, mean = math.sqrt(gap) * mu, 0.5 * (radial + x)
+    turned, still = gap * max(0.0, 1.0 - mu * mu), 0.25 * (sum_y * sum_y + z_square)
+    cos, _ = unit_circle(stream)
+    both, mixed = turned + still, 2.0 * math.sqrt(turned * still) * cos
+    here[PARTNER], here[PARTNER + 1] = x, math.sqrt(y * y + z_square)
+    here[AFTER], here[AFTER + 1] = mean + half, math.sqrt(max(0.0, both + mixed))
+    here[PARTNER_AFTER] = mean - half
+    here[PARTNER_AFTER + 1] = math.sqrt(max(0.0, both - mixed))
     return weight
+
+
+@inlined
+def is_raised(square, size, thinnest, stream):
+    """Tell whether a collision at the inner majorant is one at the raised frequency, eq. (36).
+
+    The chance is the ratio of both, (least size / size)**1.5 exp(-r**2 / (2 size)): two trials.
+    """
+    u = uniform(stream)
+    return u * u * size * size * size < thinnest and square < 2.0 * size * exponential(stream)
 
 
 @inlined
@@ -120,53 +112,49 @@ def tree(radius, radial, tangential, time, laws, state, stack, places, max_nodes
     stack, places : float64[DEPTH, 15], overwritten; int64[DEPTH], per level the branch under way
     """
     level, nodes, drawn = 0, 0, 0
+    cos, sin = cos_sin(time)
+    x, y, u, v = trajectory(radius, radial, tangential, cos, sin)
     while True:
         nodes += 1
-        collided = False
         while True:
             drawn += 1
             if drawn > max_nodes:
                 return 0.0, -1
-            span = exponential(stream) / laws.rate
-            if span >= time:
-                radius, radial, tangential = back(radius, radial, tangential, time)
+            time -= exponential(stream) * laws.span
+            if time <= 0.0:
                 break
-            time -= span
-            radius, radial, tangential = back(radius, radial, tangential, span)
-            size = 1.0 + state.amplitude * math.sin(2.0 * time + state.phase)
-            chance = math.exp(-0.5 * radius * radius / size)
-            chance *= ((1.0 - state.amplitude) / size) ** 1.5
-            if uniform(stream) < chance:
-                collided = True
+            cos, sin = cos_sin(time)
+            size, turning = swelling(cos, sin, state)
+            if is_raised(squared_radius(x, y, u, v, cos, sin), size, laws.thinnest, stream):
                 break
-        if collided:
+        if time > 0.0:
             if level >= DEPTH:
                 return 0.0, -1
-            phi = 2.0 * time + state.phase
-            flow = state.amplitude * math.cos(phi) / size * radius
+            radius, radial, tangential = node_at(x, y, u, v, cos, sin)
+            flow = turning / size * radius
             width = math.sqrt((1.0 - state.amplitude * state.amplitude) / size)
             here = stack[level]
-            here[WHEN], here[WHERE] = time, radius
-            here[BEFORE], here[BEFORE + 1] = radial, tangential
+            here[WHEN], here[COS], here[SIN], here[WHERE] = time, cos, sin, radius
             here[WEIGHT] = laws.ratio * collide(
                 radial, tangential, flow, width, laws.spread, laws.anisotropy, here, stream
             )
             places[level] = 0
             level += 1
             continue
-        value = start_ratio(radius, radial, tangential, state) if laws.start == 1.0 else 1.0
+        value = start_ratio(x, y, u, v, state) if laws.start == 1.0 else 1.0
         while level > 0:
             here = stack[level - 1]
             here[W1 + places[level - 1]] = value
-            places[level - 1] += int64(1)
+            places[level - 1] += 1
             if places[level - 1] < 4:
                 break
             value = here[W1] + here[WEIGHT] * (here[W3] * here[W4] - here[W1] * here[W2])
             level -= 1
         if level == 0:
             return value, nodes
-        here, place = stack[level - 1], BEFORE + 2 * places[level - 1]
-        time, radius, radial, tangential = here[WHEN], here[WHERE], here[place], here[place + 1]
+        here, place = stack[level - 1], PARTNER + 2 * (places[level - 1] - 1)
+        time = here[WHEN]
+        x, y, u, v = trajectory(here[WHERE], here[place], here[place + 1], here[COS], here[SIN])
 
 
 @inlined
@@ -177,12 +165,18 @@ def prepared(physics, choices):
     """
     coupling, breathing, start_phase, start = physics
     majorant, spread, anisotropy = choices
-    densest = (2.0 * math.pi * (1.0 - breathing)) ** -1.5
-    laws = Laws(majorant * coupling * densest, 1.0 / majorant, spread, anisotropy, start)
-    size = 1.0 + breathing * math.sin(start_phase)
-    flow = breathing * math.cos(start_phase) / size
-    state = Breathing(breathing, start_phase, flow, (1.0 - breathing * breathing) / size)
+    least = 1.0 - breathing
+    room = 2.0 * math.pi * least
+    span = room * math.sqrt(room) / (majorant * coupling)
+    laws = Laws(span, least**3, 1.0 / majorant, spread, anisotropy, start)
+    state = breathing_state(breathing, start_phase)
     return laws, state, np.empty((DEPTH, 15)), np.empty(DEPTH, np.int64)
+
+
+@kernel
+def start_flow(breathing, start_phase):
+    """Return the flow over the radius at time 0, eq. (31b)."""
+    return breathing_state(breathing, start_phase).flow
 
 
 @kernel
@@ -240,9 +234,8 @@ def beyond(values, nodes, threshold, time, physics, choices, max_nodes, energy, 
     energy : bool, multiply by the energy (r**2 + c**2) / 2 of the probe
     """
     laws, state, stack, places = prepared(physics, choices)
-    phi = 2.0 * time + state.phase
-    size = 1.0 + state.amplitude * math.sin(phi)
-    flow = state.amplitude * math.cos(phi) / size
+    size, turning = swelling(*cos_sin(time), state)
+    flow = turning / size
     width = math.sqrt((1.0 - state.amplitude**2) / size)
     for k in range(values.size):
         radius, weight = speed_beyond(threshold, stream)
@@ -274,8 +267,8 @@ def at(radius, radial, tangential, time, *, max_nodes, **laws):
 
 def trap(radius, time, **parameters):
     """Return `at` with the velocity that the flow has at the radius at time 0."""
-    speed = flow(radius, 0.0, float(parameters["breathing"]), float(parameters["start_phase"]))
-    return at(radius, float(speed), 0.0, time, **parameters)
+    flow = start_flow(float(parameters["breathing"]), float(parameters["start_phase"]))
+    return at(radius, flow * radius, 0.0, time, **parameters)
 
 
 def trap_fraction(radius, time, *, max_nodes, **laws):

@@ -7,6 +7,7 @@ from kacsim.kac.constants import RULES, SINGLE
 from kacsim.statistics.histogram import FINE_BINS, fine_edges
 from kacsim.store import described
 from kacsim.streams import CHUNK, new_stream
+from kacsim.sums import add_powers
 
 WAYS = ("backward", "forward")
 ERRORS = ("doubled", "limit")
@@ -27,7 +28,7 @@ def sample_kac_readings(case, progress):
     else:
         draw, bound = readings.stopping_times, readings.arguments(**case.parameters)
     shape = (len(rules), tolerance.size, len(case.replicates))
-    sums = np.zeros((3, *shape))
+    sums = np.zeros((*shape, 3))
     least, most = np.full(shape, np.inf), np.zeros(shape)
     for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
@@ -35,12 +36,12 @@ def sample_kac_readings(case, progress):
             size = min(CHUNK, case.n_draws - start)
             times = np.empty((size, *shape[:2]), np.int64)
             draw(times, *bound, stream)
-            for power in (1, 2, 3):
-                sums[power - 1, ..., row] += (times.astype(float) ** power).sum(axis=0)
+            for place in np.ndindex(shape[:2]):
+                add_powers(times[:, *place].astype(float), sums[*place, row])
             least[..., row] = np.minimum(least[..., row], times.min(axis=0))
             most[..., row] = np.maximum(most[..., row], times.max(axis=0))
             progress(row * case.n_draws + start + size)
-    mean, square, cube = sums / case.n_draws
+    mean, square, cube = np.moveaxis(sums, -1, 0) / case.n_draws
     dims = ("rule", "tolerance", "replicate")
     return {
         "mean": described(mean, dims, "mean coupling time", "steps"),
@@ -68,7 +69,7 @@ def sample_kac_forward(case, progress):
     n, _, tolerance = arguments
     rows = len(case.replicates)
     counts = np.zeros((len(WAYS), rows, FINE_BINS + 2), np.int64)
-    fourth, square, steps = np.zeros((3, len(WAYS), rows))
+    fourths, steps = np.zeros((len(WAYS), rows, 2)), np.zeros((len(WAYS), rows))
     n_far, largest = np.zeros((len(ERRORS), rows), np.int64), np.zeros((len(ERRORS), rows))
     edges = np.r_[-np.inf, fine_edges(), np.inf]
     for row, replicate in enumerate(case.replicates):
@@ -78,16 +79,15 @@ def sample_kac_forward(case, progress):
             corners = np.empty((len(WAYS), size, n))
             errors, times = np.empty((size, 2)), np.empty((size, 2), np.int64)
             forward.couple_both_ways(*corners, errors, times, *arguments, stream)
-            power = (corners**4).mean(axis=2)
-            fourth[:, row] += power.sum(axis=1)
-            square[:, row] += (power**2).sum(axis=1)
             steps[:, row] += times.sum(axis=0)
             errors /= tolerance
             n_far[:, row] += (errors >= 1.0).sum(axis=0)
             largest[:, row] = np.maximum(largest[:, row], errors.max(axis=0))
             for way in range(len(WAYS)):
+                add_powers(mean_fourth(corners[way]), fourths[way, row])
                 counts[way, row] += np.histogram(corners[way], edges)[0]
             progress(row * case.n_draws + start + size)
+    fourth, square = np.moveaxis(fourths, -1, 0)
     dims, units = ("way", "replicate"), "steps"
     return {
         "counts": described(counts, (*dims, "bin"), "coordinates per bin, first and last: tails"),
@@ -98,3 +98,11 @@ def sample_kac_forward(case, progress):
         "largest_error": described(largest, ("error", "replicate"), "largest distance / epsilon"),
         "edge": described(fine_edges(), ("edge",), "bin edges of v"),
     }
+
+
+def mean_fourth(velocities):
+    """Return float64[draw], the mean over particles of v**4 in float64[draw, particle]."""
+    total = 0.0
+    for v in velocities.T:
+        total = total + (v * v) * (v * v)
+    return total / velocities.shape[1]

@@ -43,7 +43,7 @@ def forward(velocities, own, n_particles, steps, mean_pairs, stream):
     """
     v = np.empty(n_particles)
     order = np.arange(n_particles)
-    whole = math.floor(mean_pairs)
+    whole = int64(mean_pairs)
     simulated = 0
     for draw in range(velocities.size):
         for i in range(n_particles):
@@ -113,7 +113,7 @@ def spared(members, n_particles, pairs):
 @inlined
 def touch_scale(members, n_particles, mean_pairs):
     """Return the `gap_scale` of the chance that a step touches at least one ancestor."""
-    whole = math.floor(mean_pairs)
+    whole = int64(mean_pairs)
     more = mean_pairs - whole
     few = spared(members, n_particles, whole)
     return gap_scale(1.0 - few + more * (few - spared(members, n_particles, whole + 1)))
@@ -141,7 +141,7 @@ def reveal(first, second, n, members, n_particles, mean_pairs, taken, stream):
     -------
     (int, int), the numbers of pairs recorded and of ancestors
     """
-    whole = math.floor(mean_pairs)
+    whole = int64(mean_pairs)
     more = mean_pairs - whole
     touch_few = (1.0 - more) * (1.0 - spared(members, n_particles, whole))
     touch_more = more * (1.0 - spared(members, n_particles, whole + 1))

@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from kacsim.elementary.logarithm import log
 from kacsim.kac.constants import MEAN_ENERGY
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import pair_below, random_sign, squared_cosine
@@ -150,8 +151,8 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
         steps = 0
         spread = 2.0
         while spread >= goal:
-            expected = 0.4 * math.log(spread / goal) / CONTRACTION_RATE if spread > goal else 0.0
-            block = min(BLOCK, max(1 + n // 3, int(n * expected)))
+            expected = 0.4 * log(spread / goal) / CONTRACTION_RATE if spread > goal else 0.0
+            block = min(BLOCK, max(1 + n // 3, int(min(BLOCK, n * expected))))
             draw_steps(first, second, part, block, n, stream)
             saved[:] = images
             apply_steps(images, first, second, part, 0, block)

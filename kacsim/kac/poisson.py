@@ -10,6 +10,7 @@ import math
 import numpy as np
 from numba import int64
 
+from kacsim.elementary.exponential import expm1
 from kacsim.kac.model import (
     collide,
     copy_state,
@@ -74,7 +75,7 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
         n_own = unit_arrivals(mean_own, stream)
         span = mean_own
         for k in range(n_own, 0, -1):
-            gap = -span * math.expm1(-exponential(stream) / k)
+            gap = -span * expm1(-exponential(stream) / k)
             span -= gap
             clock = exponential(stream)
             while clock < others_rate * gap:

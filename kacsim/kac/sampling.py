@@ -49,9 +49,9 @@ def accumulate(values, counts, sums, kept, n_kept, keep_above):
     """
     scale = 1.0 / FINE_WIDTH
     for v in values:
-        near = min(max(v, -2.0 * FINE_LIMIT), 2.0 * FINE_LIMIT)
-        place = int64(math.floor((near + FINE_LIMIT) * scale)) + 1
-        counts[min(max(place, 0), FINE_BINS + 1)] += 1
+        above = (v + FINE_LIMIT) * scale
+        place = 1 + int64(min(above, FINE_BINS)) if above >= 0.0 else 0
+        counts[place] += 1
         square = v * v
         sums[0] += square
         sums[1] += square**2
@@ -144,7 +144,7 @@ def sample_kac_equilibrium(case, progress):
         perfect.couple(velocities, times, *arguments, stream)
         lowest[row] = min(lowest[row], times.min())
         highest[row] = max(highest[row], times.max())
-        sums[:, row] += times.sum(), (times.astype(float) ** 2).sum()
+        sums[:, row] += times.sum(), (times * times).sum()
         room = min(times.size, kept.size - filled)
         kept[filled : filled + room] = times[:room]
         filled += room

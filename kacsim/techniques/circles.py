@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from kacsim.elementary.exponential import exp
+from kacsim.elementary.logarithm import log
 from kacsim.kernels.jit import kernel
 
 
@@ -30,5 +32,15 @@ def count_circles(inside, edges):
 
 def spread_edges(smallest, largest, n_edges):
     """Return int64[<= n_edges], different edges at about equal steps of their logarithm."""
-    steps = np.geomspace(smallest, largest, n_edges)
-    return np.unique(np.round(steps).astype(np.int64))
+    edges = np.empty(n_edges, np.int64)
+    fill_edges(edges, smallest, largest)
+    return np.unique(edges)
+
+
+@kernel
+def fill_edges(edges, smallest, largest):
+    """Fill int64[n] with whole numbers near those at equal steps of their logarithm."""
+    first, last = log(float(smallest)), log(float(largest))
+    for k in range(edges.size):
+        share = k / (edges.size - 1.0) if k > 0 else 0.0
+        edges[k] = int(exp(first + share * (last - first)) + 0.5)

@@ -28,7 +28,7 @@ TOPS = {
 }
 # |v| exp(-2 v**2 / 3) is the nearest of the |v| exp(-b v**2) above f0: least area at b = 2/3.
 NARROW = 2.0 / 3.0
-CLOSER_TOP = 2.0 / math.sqrt(math.pi) * math.exp(-0.5) / math.sqrt(2.0 * (1.0 - NARROW))
+CLOSER_TOP = 2.0 / math.sqrt(math.pi * math.e * 2.0 * (1.0 - NARROW))
 
 
 def closer_envelope(v):

@@ -8,17 +8,28 @@ import math
 import numpy as np
 from scipy import special
 
+from kacsim.elementary.exponential import exp_of_square
+from kacsim.elementary.gaussian import normal_cumulative
+from kacsim.kernels.jit import kernel
+
 ROOT_2_PI = math.sqrt(2.0 * math.pi)
+
+
+@kernel
+def normal_law(s):
+    """Return the standard normal density and its cumulative function at s and at -|s|."""
+    bell = exp_of_square(s, -0.5) / ROOT_2_PI
+    return bell, normal_cumulative(s), normal_cumulative(-abs(s))
 
 
 def half_moments(drift, temperature, highest):
     """Return float64[highest + 1], the integrals of v**k f(v) over v > 0, f a normal density."""
     thermal = math.sqrt(temperature)
     s = drift / thermal
-    bell = math.exp(-0.5 * s * s) / ROOT_2_PI
+    bell, below, beyond = normal_law(float(s))
     # s ndtr(s) + bell, without the cancellation of a drift far outward
-    first = bell - abs(s) * special.ndtr(-abs(s)) + max(s, 0.0)
-    moments = [special.ndtr(s), thermal * first]
+    first = bell - abs(s) * beyond + max(s, 0.0)
+    moments = [below, thermal * first]
     for k in range(1, highest):
         moments.append(drift * moments[k] + k * temperature * moments[k - 1])
     return np.array(moments[: highest + 1])

@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from kacsim import checks
+from kacsim.elementary.exponential import exp
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.samplers import declared
 from kacsim.streams import new_stream
@@ -39,7 +40,7 @@ def poisson_number(mean, stream):
     while mean > 0.0:
         part = min(mean, POISSON_PIECE)
         mean -= part
-        n, share, u = 0, math.exp(-part), uniform(stream)
+        n, share, u = 0, exp(-part), uniform(stream)
         while u >= share and share > 0.0:
             u -= share
             n += 1
@@ -91,7 +92,7 @@ def add_particle(face, position, velocity, half_width, numbers, tallies, n_kept)
     speed = abs(velocity[axis])
     a, b = position[one] / half_width[one], position[two] / half_width[two]
     numbers[face] += 1
-    speeds[face, min(int(speed / width), speeds.shape[1] - 1)] += 1
+    speeds[face, int(min(speed / width, speeds.shape[1] - 1))] += 1
     sums[face, NUMBER] += 1.0
     sums[face, SPEED] += speed
     sums[face, SPEED_2] += speed**2
@@ -206,7 +207,7 @@ def gas(temperature, drift, half_width):
 
 def injection(*, density, temperature, drift, half_width, step):
     """Return the parameters of `inject_steps`: mean numbers by face, and the `gas`."""
-    from kacsim.techniques import flux  # its special functions are not needed by every kernel
+    from kacsim.techniques import flux  # which imports special functions
 
     means = flux.face_rates(density, temperature, drift, half_width) * step
     return means, *gas(temperature, drift, half_width)

@@ -6,6 +6,7 @@ import numpy as np
 from numba import int64, uint64
 
 from kacsim import checks
+from kacsim.elementary.logarithm import power
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.samplers import declared
 from kacsim.streams import new_stream, next_bits
@@ -125,7 +126,7 @@ def sum_area(sums, n_points, exponent, stream):
     for place in range(n_points.size):
         for _ in range(n_points[place] - done):
             x = 2.0 * uniform(stream) - 1.0
-            height = (1.0 - x * x) ** exponent
+            height = power(1.0 - x * x, exponent)
             below += int64(uniform(stream) < height)
             heights += height
         done = n_points[place]
@@ -147,8 +148,11 @@ def count_sobol(inside, n_points, dimension, state):
     for place, n in enumerate(n_points):
         while done < n:
             points = engine.random(int(min(BLOCK, n - done)))
-            hits += int(((points * points).sum(axis=1) <= 1.0).sum())
-            done += points.shape[0]
+            square = np.zeros(points.shape[0])
+            for axis in range(dimension):
+                square += points[:, axis] * points[:, axis]
+            hits += int((square <= 1.0).sum())
+            done += square.size
         inside[place] = hits
 
 

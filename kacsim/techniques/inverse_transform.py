@@ -94,7 +94,13 @@ def tabulate(cumulative, low, high, n_table):
 
 def law_table(law, n_table):
     """Return the table of one of `LAWS` over its support."""
-    return tabulate(CUMULATIVES[law], *SUPPORT[law], n_table)
+
+    def cumulative(values):
+        shares = np.empty(values.size)
+        model.fill_cumulative(shares, LAWS.index(law), values)
+        return shares
+
+    return tabulate(cumulative, *SUPPORT[law], n_table)
 
 
 def table_error(law, table, places):

@@ -2,21 +2,25 @@
 
 import math
 
+from kacsim.elementary.exponential import exp, exp_of_square, expm1
+from kacsim.elementary.gaussian import scaled_erfc
+from kacsim.elementary.logarithm import log1p
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.streams import next_bits
 from kacsim.techniques.constants import EXPONENTIAL, KAC_INITIAL, RAMP
 
 TWO_OVER_ROOT_PI = 2.0 / math.sqrt(math.pi)
 ROOT_PI = math.sqrt(math.pi)
+FARTHEST = 28.0  # of f0, beyond which its tails are below the smallest number
 
 
 @inlined
 def density(law, v):
     """Return p(v): f0 of the Kac paper, exp(-v), (2/3)(1 + v) or 2 v on [0, 1]."""
     if law == KAC_INITIAL:
-        return TWO_OVER_ROOT_PI * v * v * math.exp(-v * v)
+        return TWO_OVER_ROOT_PI * v * v * exp(-v * v)
     if law == EXPONENTIAL:
-        return math.exp(-v)
+        return exp(-v)
     if law == RAMP:
         return (2.0 + 2.0 * v) / 3.0
     return 2.0 * v
@@ -26,9 +30,11 @@ def density(law, v):
 def cumulative(law, v):
     """Return P(v), the integral of `density` up to v (chapter, section 11.1.1)."""
     if law == KAC_INITIAL:
-        return 0.5 * math.erfc(-v) - v * math.exp(-v * v) / ROOT_PI
+        away = min(abs(v), FARTHEST)
+        tail = exp_of_square(away, -1.0) * (0.5 * scaled_erfc(away) + away / ROOT_PI)
+        return tail if v <= 0.0 else 1.0 - tail
     if law == EXPONENTIAL:
-        return -math.expm1(-v)
+        return -expm1(-v)
     if law == RAMP:
         return (2.0 + v) * v / 3.0
     return v * v
@@ -38,10 +44,17 @@ def cumulative(law, v):
 def inverse(law, u):
     """Return the v with P(v) = u (chapter, eq. 11.12) of a law other than f0."""
     if law == EXPONENTIAL:
-        return -math.log1p(-u)
+        return -log1p(-u)
     if law == RAMP:
         return math.sqrt(1.0 + 3.0 * u) - 1.0
     return math.sqrt(u)
+
+
+@kernel
+def fill_cumulative(shares, law, values):
+    """Set float64[n] to P at n values."""
+    for k in range(values.size):
+        shares[k] = cumulative(law, values[k])
 
 
 @kernel

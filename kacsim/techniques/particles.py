@@ -61,7 +61,8 @@ def index_range(velocities, weights, normal):
     direction = np.asarray(normal, dtype=float)
     if direction.shape != (3,) or not np.isfinite(direction).all() or not direction.any():
         raise ValueError(f"normal = {normal!r}: must be three finite numbers, not all zero")
-    lengths = weights * np.maximum(0.0, velocities @ direction)
+    inward = sum(velocities[:, axis] * direction[axis] for axis in range(3))
+    lengths = weights * np.maximum(0.0, inward)
     total = lengths.sum()
     if not 0.0 < total < np.inf:
         raise ValueError(f"velocities: must have a flux along normal = {normal!r}; it is {total}")

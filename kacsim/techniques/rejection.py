@@ -5,6 +5,8 @@ import math
 import numpy as np
 
 from kacsim import checks
+from kacsim.elementary.exponential import exp
+from kacsim.elementary.logarithm import log1p
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.streams import new_stream
 from kacsim.techniques import model
@@ -20,8 +22,8 @@ def propose(closer, low, width, top, stream):
     if not closer:
         return low + width * u, top
     u = 2.0 * u - 1.0
-    v = math.copysign(math.sqrt(-math.log1p(-abs(u)) / NARROW), u)
-    return v, CLOSER_TOP * abs(v) * math.exp(-NARROW * v * v)
+    v = math.copysign(math.sqrt(-log1p(-abs(u)) / NARROW), u)
+    return v, CLOSER_TOP * abs(v) * exp(-NARROW * v * v)
 
 
 @kernel

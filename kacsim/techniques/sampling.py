@@ -7,6 +7,7 @@ import numpy as np
 from kacsim.kernels.lookup import named
 from kacsim.store import described
 from kacsim.streams import CHUNK, new_stream
+from kacsim.sums import add_powers
 from kacsim.techniques import (
     circles,
     identity,
@@ -87,7 +88,8 @@ def sample_inversion(case, progress):
         inverse_transform.closed_form(values, LAWS.index(law), stream)
 
     counts, moments, uniforms = _draw_law(case, law, fill, progress)
-    return _law_variables(counts, moments / rate ** np.array(POWERS), uniforms)
+    scale = np.multiply.accumulate(np.full(len(POWERS), float(rate)))
+    return _law_variables(counts, moments / scale, uniforms)
 
 
 def sample_rejection(case, progress):
@@ -202,20 +204,22 @@ def sample_entering_pairs(case, progress):
     draw = named("kacsim.techniques", "pairs", f"by_{p['way']}")
     edges = np.linspace(-PAIR_LIMIT, PAIR_LIMIT, round(2.0 * PAIR_LIMIT / PAIR_WIDTH) + 1)
     n = len(case.replicates)
-    sums, product, counts = np.zeros((n, 2)), np.zeros(n), np.zeros((n, edges.size + 1), np.int64)
+    sums, counts = np.zeros((n, 3)), np.zeros((n, edges.size + 1), np.int64)
     for row, replicate in enumerate(case.replicates):
         stream = new_stream(case.seed, case.id, replicate)
         for first in range(0, case.n_draws, CHUNK):
             pairs = np.empty((min(CHUNK, case.n_draws - first), 2))
             draw(pairs, float(p["correlation"]), stream)
-            sums[row] += pairs.sum(axis=0)
-            product[row] += pairs.prod(axis=1).sum()
-            places = np.searchsorted(edges, pairs[:, 1], side="right")
+            v, w = pairs.T.copy()
+            for k, values in enumerate((v, w, v * w)):
+                add_powers(values, sums[row, k : k + 1])
+            places = np.searchsorted(edges, w, side="right")
             counts[row] += np.bincount(places, minlength=edges.size + 1)
         progress((row + 1) * case.n_draws)
+    mean = sums / case.n_draws
     return {
-        "mean": described(sums / case.n_draws, ("replicate", "velocity"), "normal, along the face"),
-        "product": described(product / case.n_draws, ("replicate",), "mean of their product"),
+        "mean": described(mean[:, :2], ("replicate", "velocity"), "normal, along the face"),
+        "product": described(mean[:, 2], ("replicate",), "mean of their product"),
         "counts": described(counts, ("replicate", "bin"), "draws by the velocity along the face"),
         "edge": described(edges, ("edge",), "edges of the bins"),
     }

@@ -107,10 +107,15 @@ def extinction(time, ratio, stream):
     return first * (1 - second / ratio), 1 + n_first + n_second
 
 
-def vector_collision(c, other, mu, angle):
-    """Return eq. (6) for vectors of which the first axis is radial."""
+def vector_collision(c, other, mu, cos, sin):
+    """Return eq. (6) for vectors of which the first axis is radial.
+
+    Across it the angle of u' is counted from the direction of c + c*.
+    """
     level = math.sqrt(1 - mu * mu)
-    u = np.array([mu, level * math.cos(angle), level * math.sin(angle)])
+    first = (c + other)[1:] / np.linalg.norm((c + other)[1:])
+    across = level * (cos * first + sin * np.array([-first[1], first[0]]))
+    u = np.array([mu, *across])
     gap = np.linalg.norm(c - other)
     return (c + other + gap * u) / 2, (c + other - gap * u) / 2
 
@@ -119,26 +124,29 @@ def trap_tree(node, time, physics, choices, stream):
     """Return (f / breathing state, calls) of Algorithm 6, node = (r, radial, tangential)."""
     coupling, eps, phase, start = physics
     majorant, spread, anisotropy = choices
-    cloud = coupling * trap.cloud(0.0, -math.pi / 4 - phase / 2, eps, phase)  # sin(phi) = -1
+    densest = -math.pi / 4 - phase / 2  # sin(phi) = -1
+    cloud = trap.cloud(0.0, densest, eps, phase)
     while True:
-        span = random.exponential(stream) / (majorant * cloud)
+        span = random.exponential(stream) / (majorant * coupling * cloud)
         if span >= time:
             at_start = trap.ballistic(*node, time)
             return (trap.relative_start(*at_start, eps, phase) if start else 1.0), 1
         time, node = time - span, trap.ballistic(*node, span)
-        here = coupling * trap.cloud(node[0], time, eps, phase)
-        if random.uniform(stream) * cloud < here:
+        middle = trap.cloud(0.0, time, eps, phase)
+        if random.uniform(stream) * cloud >= middle:
+            continue
+        if middle * math.exp(-random.exponential(stream)) < trap.cloud(node[0], time, eps, phase):
             break
     flow = float(trap.flow(node[0], time, eps, phase))
     width = float(trap.thermal_speed(time, eps, phase))
-    gauss = np.array([normal(stream) for _ in range(3)])
+    gauss = np.array([normal(stream), normal(stream), random.half_normal(stream)])
     c = np.array([node[1], node[2], 0.0])
     other = np.array([flow, 0.0, 0.0]) + width * spread * gauss
     mu = 2 * random.uniform(stream) - 1
     if anisotropy > TILTED:  # invert the cumulative (1 + mu) / 2 + anisotropy (mu**2 - 1) / 4
         mu = np.roots([anisotropy, 2, 1 - anisotropy - (1 + mu) - mu])
         mu = float(mu[np.argmin(abs(mu))])
-    after, other_after = vector_collision(c, other, mu, 2 * math.pi * random.uniform(stream))
+    after, other_after = vector_collision(c, other, mu, *random.unit_circle(stream))
     drawn = math.exp(-gauss @ gauss / 2) / spread**3
     printed = math.exp(-(spread**2) * (gauss @ gauss) / 2)
     weight = printed / drawn / (1 + anisotropy * mu) / majorant

@@ -29,7 +29,8 @@ def grown(pairs, parts, n, stream):
     """Return the inputs, pairs int64[k, 2] and sin(theta)**2 float64[k], and AHEAD more."""
     known = parts.size
     more_pairs, more_parts = np.empty((known + AHEAD, 2), np.int64), np.empty(known + AHEAD)
-    more_pairs[:known], more_parts[:known] = pairs, parts
+    for k in range(known):
+        more_pairs[k, 0], more_pairs[k, 1], more_parts[k] = pairs[k, 0], pairs[k, 1], parts[k]
     for k in range(known, known + AHEAD):
         more_pairs[k, 0], more_pairs[k, 1] = pair_below(n, stream)
         more_parts[k] = squared_cosine(stream)
@@ -105,7 +106,9 @@ def couple_both_ways(backward, forward, errors, times, n_particles, energy, tole
                 set_mean(means[DOUBLED], images, radius)
             done = stopped > 0 and all_within(images, FINAL * FINAL * goal)
         set_mean(means[LIMIT], images, radius)
-        backward[draw], times[draw, 0] = means[STOPPED], stopped
+        for k in range(n):
+            backward[draw, k] = means[STOPPED, k]
+        times[draw, 0] = stopped
         errors[draw, 0] = distance(means[STOPPED], means[DOUBLED])
         errors[draw, 1] = distance(means[STOPPED], means[LIMIT])
 

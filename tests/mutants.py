@@ -6,7 +6,7 @@ python tests/mutants.py --sample 4 --choice 17
 
 Each slip of mutants.yaml is applied to a copy of the project. The tests named there run first;
 if they pass, the whole default suite does, but for tests/workflow and tests/browser, which look at
-the machinery and not at the science, the test of this table, and the frozen bits, which tell that
+the machinery and not at the science, the test of this table, and those of the bits, which tell that
 something is different and not that it is wrong. A test that fails is then run without the slip: it
 catches nothing unless it passes there. The exit status is 1 if a slip survives or cannot be
 applied any more.
@@ -35,6 +35,7 @@ LEFT_OUT = (
     "tests/workflow",
     "tests/browser",
     "tests/unit/test_mutants.py",
+    "tests/unit/test_bits.py",
     "tests/unit/test_frozen.py",
 )
 NOT_COPIED = (".git", ".venv", ".snakemake", ".*_cache", "__pycache__", "results", "logs")

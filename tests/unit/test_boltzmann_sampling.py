@@ -122,9 +122,10 @@ def test_sums_are_numpys(sampler, monkeypatch):
             np.testing.assert_allclose(found["mean"][i, j], values.mean(axis=1), rtol=1e-12)
             squares = (values**2).mean(axis=1)
             np.testing.assert_allclose(found["mean_square"][i, j], squares, rtol=1e-12)
-            np.testing.assert_array_equal(found["largest"][i, j], values.max(axis=1))
+            np.testing.assert_allclose(found["largest"][i, j], values.max(axis=1), rtol=1e-12)
             np.testing.assert_allclose(found["nodes"][i, j], nodes.mean(axis=1), rtol=1e-12)
-            np.testing.assert_array_equal(found["top"][i, j], np.sort(values.ravel())[-20:][::-1])
+            top = np.sort(values.ravel())[-20:][::-1]
+            np.testing.assert_allclose(found["top"][i, j], top, rtol=1e-12)
 
 
 def test_probes_and_replicates_have_streams_of_their_own():

@@ -17,6 +17,7 @@ from kacsim.boltzmann import (
     literal_trap,
     null_collisions,
     trap,
+    trap_node,
     trap_tree,
 )
 from kacsim.kac import probe_tree
@@ -85,6 +86,13 @@ def test_trap(node, initial, choices, seed):
     twin = functools.partial(twins.trap_probe, *node, 1.9, physics, choices)
     arguments = (*node, 1.9, physics, choices, BUDGET)
     assert assert_same(trap_tree.estimate, arguments, twin, 60, (seed, "twin trap")) > 10
+
+
+def test_a_node_at_the_centre_moves_outward():
+    """No statistics; a trajectory through the centre, and one beside it."""
+    assert trap_node.node_at(0.0, 0.0, 0.3, 0.4, 1.0, 0.0) == (0.0, 0.5, 0.0)
+    beside = trap_node.node_at(1e-3, 0.0, 0.3, 0.4, 1.0, 0.0)
+    assert beside == pytest.approx((1e-3, 0.3, 0.4))
 
 
 @pytest.mark.parametrize("energy", [False, True])

@@ -11,6 +11,7 @@ import numba
 import numpy as np
 import pytest
 
+from kacsim.boltzmann.constants import LARGEST_PHASE
 from kacsim.elementary import circular, exponential, gaussian, logarithm
 
 N = 1_000_000
@@ -209,6 +210,10 @@ def test_ends(function):
     """Infinities, nan and zeros, where a result is exact."""
     found = compiled(function)(np.array(list(SPECIAL[function])))
     np.testing.assert_array_equal(found, list(SPECIAL[function].values()))
+
+
+def test_phases_of_the_trap_are_angles_that_are_known():
+    assert LARGEST_PHASE <= circular.LARGEST_ANGLE
 
 
 def test_ends_of_powers():

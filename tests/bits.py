@@ -1,10 +1,14 @@
 """The bits of a small case of every sampler, and what its kernels are compiled to.
 
 python tests/bits.py [--assembly]
+python tests/bits.py --switches
+python tests/bits.py --printed report.html
 
-draws the cases under the circumstances of the process and prints, as JSON, the digest of each, and
-those of what the mathematical libraries give, which are not promised. With `--assembly`, and an
-empty `KACSIM_CACHE_DIR`, it also tells what the kernels call and what in them is contracted.
+The first draws the cases under the circumstances of the process and prints, as JSON, the digest of
+each, and those of what the mathematical libraries give, which are not promised. With `--assembly`,
+and an empty `KACSIM_CACHE_DIR`, it also tells what the kernels call and what in them is contracted.
+The second prints the settings of the environment that turn off what is chosen by the processor, a
+line each; the third what a report prints, but for its pictures and the versions.
 """
 
 import dataclasses
@@ -131,6 +135,14 @@ def switched():
     }
 
 
+def printed(report):
+    """Return the words and numbers of a report, a line each, but for pictures and versions."""
+    text = Path(report).read_text(encoding="utf-8")
+    text = re.sub(r"<(svg|style|script)\b.*?</\1>", " ", text, flags=re.DOTALL)
+    text = re.sub(r"kacsim [^<]*Python [^<]*scipy [\d.]*", " ", text)
+    return "\n".join(re.sub(r"<[^>]*>", " ", text).split())
+
+
 def run(*words, **environment):
     """Return what the script says in a process of its own, in another environment."""
     known = os.environ | {"PYTHONPATH": str(ROOT)} | environment
@@ -142,4 +154,11 @@ def run(*words, **environment):
 
 
 if __name__ == "__main__":
-    print(json.dumps(found("--assembly" in sys.argv)))
+    match sys.argv[1:]:
+        case ["--switches"]:
+            for name, value in {**switched(), "NUMBA_CPU_NAME": "generic"}.items():
+                print(f"{name}={value}")
+        case ["--printed", report]:
+            print(printed(report))
+        case words:
+            print(json.dumps(found("--assembly" in words)))

@@ -15,6 +15,7 @@ from kacsim.boltzmann import (
     bkw_tree,
     literal,
     literal_trap,
+    model,
     null_collisions,
     trap,
     trap_node,
@@ -181,3 +182,10 @@ def test_recorded_tree(seed):
         again = literal.record(1.7, 2.5, budget, new_stream(seed, "record", k))
         assert again.shape[0] == (1 if rows.shape[0] == 1 else 0)
     assert n_collisions > 50
+
+
+def test_copies_stay_whole_numbers(seed):
+    """More sub-estimates than any budget: a whole number all the same."""
+    for oversampling in (1.0, 3.0, 1e15, 1e50):
+        n = model.copies(oversampling, new_stream(seed, "copies"))
+        assert n == min(oversampling, 2.0**53) + (oversampling > 2.0**53)

@@ -59,7 +59,7 @@ def test_kept_velocities_are_the_first_above_the_threshold(threshold, monkeypatc
     np.testing.assert_array_equal(values_of(sampling.run(case))["kept_velocity"], above[:900])
 
 
-@pytest.mark.parametrize("value", [-1e300, -8.0001, 7.99999, 8.0, 1e300])
+@pytest.mark.parametrize("value", [-math.inf, -1e300, -8.0001, 7.99999, 8.0, 1e300, math.inf])
 def test_extreme_values_are_counted_in_the_tails(value):
     counts, sums, kept = np.zeros(322, np.int64), np.zeros(4), np.empty(0)
     kac_sampling.accumulate(np.array([value]), counts, sums, kept, 0, 0.0)

@@ -269,3 +269,12 @@ def test_gap_scale(p):
 
 def test_gap_scale_at_certainty():
     assert variates.gap_scale(1.0) == 0.0
+
+
+def test_trials_that_hardly_ever_succeed_leave_a_whole_number(seed):
+    """Gaps beyond the whole numbers of 64 bits, with a chance of 0 or near it."""
+    for p in (0.0, 1e-25, 1e-300):
+        stream = new_stream(seed, "test_variates never")
+        gaps = [variates.failures_before_success(variates.gap_scale(p), stream) for _ in range(9)]
+        assert gaps == [variates.MOST_FAILURES] * 9
+    assert variates.gap_scale(0.0) == math.inf

@@ -1,4 +1,4 @@
-"""The bits of a small case of every sampler, and what its kernels are compiled to.
+"""The bits of small cases of every sampler, and what its kernels are compiled to.
 
 python tests/bits.py [--assembly]
 python tests/bits.py --switches
@@ -66,13 +66,14 @@ def kernels():
 
 
 def digests():
-    """Return id -> digest of a small case of every sampler, variant and engine."""
-    from unit.test_frozen import digest
+    """Return id -> digest of small cases of every sampler, variant and engine."""
+    from unit.test_frozen import FROZEN, case_of, digest
 
     from kacsim.cases import tiny_cases
     from kacsim.jobs import sampling
 
     cases = [dataclasses.replace(case, n_draws=DRAWS) for case in tiny_cases()]
+    cases += [case_of(entry) for entry in FROZEN["cases"]]
     return {case.id: digest(sampling.run(case)) for case in cases}
 
 

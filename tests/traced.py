@@ -7,7 +7,6 @@ reads a list of [name of a function below, its arguments ...] and prints what ea
 
 import dataclasses
 import json
-import math
 import os
 import subprocess
 import sys
@@ -15,7 +14,6 @@ import tempfile
 import traceback
 from pathlib import Path
 
-import numpy as np
 import tracer
 
 DRAWS = 20  # enough for what draws of a tree rarely do
@@ -44,17 +42,11 @@ def run(jobs):
     return found
 
 
-def divide_as_compiled():
-    """Let divisions by a logarithm of 1 give infinity, as in compiled kernels, and no error."""
-    math.log, math.log1p = np.log, np.log1p
-
-
 def sample(trace, number):
     """Draw a tiny case, as `kacsim sample` does."""
     from kacsim.cases import tiny_cases
     from kacsim.jobs import sampling
 
-    divide_as_compiled()
     case = dataclasses.replace(list(tiny_cases())[number], n_draws=DRAWS)
     with trace.running("sample"):
         sampling.run(case)
@@ -66,7 +58,6 @@ def merge(trace, number):
     from kacsim.cases import tiny_cases
     from kacsim.jobs import sampling, shards
 
-    divide_as_compiled()
     case = dataclasses.replace(list(tiny_cases())[number], n_replicates=2)
     with tempfile.TemporaryDirectory() as folder:
         for part in case.split(2):

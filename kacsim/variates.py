@@ -1,75 +1,71 @@
 """Random variates drawn inside kernels, each from a stream of `kacsim.streams`.
 
 Exponential and normal variates use the ziggurat of Marsaglia and Tsang (J. Stat. Softw. 5(8),
-2000) with 256 layers; one call of the generator gives the layer (8 low bits) and the abscissa (53
-high bits). Points on the circle use Marsaglia's polar method: no sine or cosine.
+2000) with 256 layers; one call of the generator gives the layer (8 low bits), a sign (the next)
+and the abscissa (53 high bits). Points on the circle are one of 256 fixed ones turned by a small
+angle (8 low bits and 53 high bits of one call): no rejection, no library's sine.
 """
 
-from decimal import Decimal
+import math
 
-import numpy as np
 from numba import int64, uint64
 
-from kacsim.elementary.decimals import precise
 from kacsim.elementary.exponential import exp
 from kacsim.elementary.logarithm import log, log1p
-from kacsim.kernels.jit import inlined
+from kacsim.kernels.jit import apart, inlined
+from kacsim.kernels.wide import product
 from kacsim.streams import next_bits
+from kacsim.variate_tables import (
+    COS_SIN,
+    E_TAIL,
+    EXPONENTIAL,
+    LAYERS,
+    N_TAIL,
+    NORMAL,
+    POINTS,
+    SPEED_EDGE,
+    SPEED_LARGEST,
+    SPEED_LEAST,
+    SPEED_SCALE,
+    SPEED_SURE,
+    SPEED_TAIL,
+    SPEED_WIDTH,
+    UNIT,
+)
 
-LAYERS = 256
+_, E_SCALE, E_SURE, E_HEIGHT = EXPONENTIAL
+_, N_SCALE, N_SURE, N_HEIGHT = NORMAL
+
 MOST_FAILURES = 2**62  # of trials that hardly ever succeed
-_UNIT = 2.0**-53
-
-
-@precise
-def _ziggurat(density, inverse, tail, area):
-    """Return the layers' right edges, widths of the sure part and densities.
-
-    Parameters
-    ----------
-    density, inverse : decreasing function of decimals with density(0) = 1, and its inverse
-    tail : abscissa where the tail begins
-    area : common area of the layers, the lowest one including the tail
-    """
-    tail, area = Decimal(tail), Decimal(area)
-    edges = [area / density(tail), tail]
-    while len(edges) < LAYERS:
-        edges.append(inverse(area / edges[-1] + density(edges[-1])))
-    edges.append(Decimal(0))
-    edge, height = np.array(edges, dtype=float), np.array([float(density(x)) for x in edges])
-    return edge, edge * _UNIT, (edge[1:] / edge[:-1] * 2.0**53).astype(np.int64), height
-
-
-_E_TAIL = 7.69711747013104972
-_E_EDGE, _E_SCALE, _E_SURE, _E_HEIGHT = _ziggurat(
-    lambda x: (-x).exp(), lambda y: -y.ln(), _E_TAIL, 3.9496598225815571993e-3
-)
-_N_TAIL = 3.6541528853610088
-_N_EDGE, _N_SCALE, _N_SURE, _N_HEIGHT = _ziggurat(
-    lambda x: (-x * x / 2).exp(),
-    lambda y: (-2 * y.ln()).sqrt(),
-    _N_TAIL,
-    4.92867323399e-3,
-)
 
 
 @inlined
 def uniform(stream):
     """Return a uniform float64 on [0, 1), a multiple of 2**-53."""
-    return int64(next_bits(stream) >> uint64(11)) * _UNIT
+    return int64(next_bits(stream) >> uint64(11)) * UNIT
 
 
 @inlined
 def index_below(n, stream):
-    """Return a uniform integer 0..n-1, for 1 <= n < 2**53 (bias below n * 2**-53)."""
-    return int64(uniform(stream) * n)
+    """Return a uniform integer 0..n-1, for 1 <= n < 2**63 (bias below n * 2**-64)."""
+    return int64(product(next_bits(stream), uint64(n))[0])
+
+
+@inlined
+def two_below(n, m, stream):
+    """Return independent uniform integers 0..n-1 and 0..m-1 from one call.
+
+    The product of the bits with n has the first above the point; what is below it gives the second
+    in the same way (bias below n * m * 2**-64).
+    """
+    above, below = product(next_bits(stream), uint64(n))
+    return int64(above), int64(product(below, uint64(m))[0])
 
 
 @inlined
 def pair_below(n, stream):
     """Return an ordered pair of distinct uniform indices below n >= 2."""
-    i = index_below(n, stream)
-    j = index_below(n - 1, stream)
+    i, j = two_below(n, n - 1, stream)
     return i, j + int64(j >= i)
 
 
@@ -86,13 +82,13 @@ def exponential(stream):
         bits = next_bits(stream)
         layer = int64(bits & uint64(255))
         position = int64(bits >> uint64(11))
-        x = position * _E_SCALE[layer]
-        if position < _E_SURE[layer]:
+        x = position * E_SCALE[layer]
+        if position < E_SURE[layer]:
             return x
         if layer == 0:
-            return _E_TAIL - log(1.0 - uniform(stream))
-        step = _E_HEIGHT[layer + 1] - _E_HEIGHT[layer]
-        if _E_HEIGHT[layer] + uniform(stream) * step < exp(-x):
+            return E_TAIL - log(1.0 - uniform(stream))
+        step = E_HEIGHT[layer + 1] - E_HEIGHT[layer]
+        if E_HEIGHT[layer] + uniform(stream) * step < exp(-x):
             return x
 
 
@@ -103,16 +99,16 @@ def half_normal(stream):
         bits = next_bits(stream)
         layer = int64(bits & uint64(255))
         position = int64(bits >> uint64(11))
-        x = position * _N_SCALE[layer]
-        if position < _N_SURE[layer]:
+        x = position * N_SCALE[layer]
+        if position < N_SURE[layer]:
             return x
         if layer == 0:
             while True:
-                x = -log(1.0 - uniform(stream)) / _N_TAIL
+                x = -log(1.0 - uniform(stream)) / N_TAIL
                 if -2.0 * log(1.0 - uniform(stream)) > x * x:
-                    return _N_TAIL + x
-        step = _N_HEIGHT[layer + 1] - _N_HEIGHT[layer]
-        if _N_HEIGHT[layer] + uniform(stream) * step < exp(-0.5 * x * x):
+                    return N_TAIL + x
+        step = N_HEIGHT[layer + 1] - N_HEIGHT[layer]
+        if N_HEIGHT[layer] + uniform(stream) * step < exp(-0.5 * x * x):
             return x
 
 
@@ -123,27 +119,64 @@ def normal(stream):
 
 
 @inlined
-def unit_circle(stream):
-    """Return (cos, sin) of a uniform angle (polar method, angle doubled; 2.55 uniforms)."""
+def maxwell_speed(stream):
+    """Return a variate of density 4 / sqrt(pi) x**2 exp(-x**2), x > 0.
+
+    One call of the generator gives the strip and a height; one below the strip's least density is as
+    good as a place.
+    """
+    bits = next_bits(stream)
+    strip = int64(bits & uint64(LAYERS - 1))
+    height = int64(bits >> uint64(11))
+    if height < SPEED_SURE[strip]:
+        return SPEED_EDGE[strip] + height * SPEED_SCALE[strip]
+    return _speed_beside(strip, stream)
+
+
+@apart
+def _speed_beside(strip, stream):
+    """Return the speed for a height above the least density of a strip."""
+    while strip < LAYERS - 1:
+        x = SPEED_EDGE[strip] + uniform(stream) * SPEED_WIDTH[strip]
+        step = SPEED_LARGEST[strip] - SPEED_LEAST[strip]
+        if SPEED_LEAST[strip] + uniform(stream) * step < x * x * exp(1.0 - x * x):
+            return x
+        bits = next_bits(stream)
+        strip = int64(bits & uint64(LAYERS - 1))
+        height = int64(bits >> uint64(11))
+        if height < SPEED_SURE[strip]:
+            return SPEED_EDGE[strip] + height * SPEED_SCALE[strip]
     while True:
-        x = 2.0 * uniform(stream) - 1.0
-        y = uniform(stream)
-        q = x * x + y * y
-        if 0.0 < q <= 1.0:
-            twice = 2.0 / q
-            return 1.0 - y * y * twice, x * y * twice
+        # The square beyond the tail's: sqrt(1 + y) exp(-y / 2) is largest at 0.
+        y = exponential(stream) / (SPEED_TAIL * SPEED_TAIL - 0.5)
+        if uniform(stream) < math.sqrt(1.0 + y) * exp(-0.5 * y):
+            return SPEED_TAIL * math.sqrt(1.0 + y)
+
+
+@inlined
+def _turned(stream):
+    """Return (place of a uniform fixed point, cos, sin of a uniform turn within half a step)."""
+    bits = next_bits(stream)
+    turn = (int64(bits) >> int64(11)) * (2.0 * math.pi / POINTS * UNIT)  # a signed number of 53 bits
+    square = turn * turn
+    cos = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
+    sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)))
+    return 2 * int64(bits & uint64(POINTS - 1)), cos, sin
+
+
+@inlined
+def unit_circle(stream):
+    """Return (cos, sin) of a uniform angle."""
+    place, cos, sin = _turned(stream)
+    x, y = COS_SIN[place], COS_SIN[place + 1]
+    return x * cos - y * sin, y * cos + x * sin
 
 
 @inlined
 def squared_cosine(stream):
-    """Return cos(theta)**2 of a uniform angle, i.e. a Beta(1/2, 1/2) variate (2.55 uniforms)."""
-    while True:
-        x = uniform(stream)
-        y = uniform(stream)
-        x *= x
-        q = x + y * y
-        if 0.0 < q <= 1.0:
-            return x / q
+    """Return cos(theta)**2 of a uniform angle, (1 + cos(2 theta)) / 2: a Beta(1/2, 1/2) variate."""
+    place, cos, sin = _turned(stream)
+    return max(0.0, 0.5 + 0.5 * (COS_SIN[place] * cos - COS_SIN[place + 1] * sin))
 
 
 @inlined

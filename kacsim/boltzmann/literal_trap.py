@@ -12,7 +12,7 @@ from kacsim.boltzmann.literal import isotropic
 from kacsim.boltzmann.trap import MAJORANT
 from kacsim.elementary.circular import cos_sin
 from kacsim.elementary.exponential import exp
-from kacsim.kernels.jit import inlined, kernel
+from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import exponential, normal, uniform
 
 
@@ -45,7 +45,7 @@ def start(point, breathing, relaxed):
     return maxwellian(radius, math.sqrt(size)) * shape
 
 
-@inlined
+@allocating
 def back(point, span):
     """Return the place and velocity a phase earlier on the free trajectory, float64[6]."""
     cos, sin = cos_sin(span)
@@ -56,7 +56,7 @@ def back(point, span):
     return earlier
 
 
-@inlined
+@allocating
 def placed(point, x, y, z):
     """Return the same place with another velocity, float64[6]."""
     other = point.copy()

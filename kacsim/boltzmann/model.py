@@ -16,7 +16,7 @@ import numpy as np
 from numba import int64
 
 from kacsim.elementary.exponential import exp
-from kacsim.kernels.jit import inlined
+from kacsim.kernels.jit import allocating, inlined
 from kacsim.variates import exponential, half_normal, squared_cosine, uniform
 
 BKW_LAW, KAC_LAW = 0, 1
@@ -71,7 +71,7 @@ def copies(oversampling, stream):
     return whole + int64(uniform(stream) < oversampling - whole)
 
 
-@inlined
+@allocating
 def workspace():
     """Return what `tree` keeps of every level.
 

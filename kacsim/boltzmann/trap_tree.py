@@ -23,7 +23,7 @@ from kacsim.boltzmann.trap_node import (
 )
 from kacsim.elementary.circular import cos_sin
 from kacsim.elementary.exponential import exp
-from kacsim.kernels.jit import inlined, kernel
+from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import exponential, half_normal, normal, uniform, unit_circle
 
 # Columns of a level of the stack of `tree`: phase of a collision, its cosine and sine, the radius,
@@ -157,7 +157,7 @@ def tree(radius, radial, tangential, time, laws, state, stack, places, max_nodes
         x, y, u, v = trajectory(here[WHERE], here[place], here[place + 1], here[COS], here[SIN])
 
 
-@inlined
+@allocating
 def prepared(physics, choices):
     """Return (laws, state, stack, places) of `tree` from what the kernels are given.
 

@@ -32,7 +32,7 @@ def _tables():
     return (*cut(step, 2.0**-39, 2.0**-73), float(1 / step), circle)
 
 
-_STEP_1, _STEP_2, _STEP_3, _STEPS, _CIRCLE = _tables()
+_STEP_1, _STEP_2, _STEP_3, _STEPS, CIRCLE = _tables()
 
 
 @inlined
@@ -48,7 +48,7 @@ def cos_sin(x):
     elif beside == 2:
         many, k = many - 1.0, k - np.int64(1)
     k &= np.int64(PARTS - 1)
-    cos, sin, cos_low, sin_low = _CIRCLE[k, 0], _CIRCLE[k, 1], _CIRCLE[k, 2], _CIRCLE[k, 3]
+    cos, sin, cos_low, sin_low = CIRCLE[k, 0], CIRCLE[k, 1], CIRCLE[k, 2], CIRCLE[k, 3]
     # d and what it lacks
     rest, second = x - many * _STEP_1, many * _STEP_2
     d = rest - second

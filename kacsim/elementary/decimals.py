@@ -4,7 +4,7 @@ import decimal
 import functools
 from decimal import ROUND_FLOOR, Decimal
 
-DIGITS = 60
+DIGITS = 40
 
 
 def precise(make):

@@ -5,17 +5,11 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.kac.model import (
-    collide,
-    copy_state,
-    growing,
-    initial_velocity,
-    replay,
-    signed_root,
-)
+from kacsim.kac.model import collide, initial_velocity
 from kacsim.kac.moments import INITIAL_SQUARE, gain
-from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import failures_before_success, gap_scale, index_below, pair_below, uniform
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined, kernel
+from kacsim.variates import failures_before_success, gap_scale, pair_below, two_below
 
 
 def arguments(*, n_particles, time, collision_rate):
@@ -55,40 +49,6 @@ def forward(velocities, own, n_particles, n_collisions, stream):
     return velocities.size * n_collisions
 
 
-@growing
-@kernel
-def ancestral(velocities, own, n_particles, n_collisions, stream, first, second, energy):
-    """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`."""
-    scales = touch_scales(n_particles)
-    start = stream.copy()
-    simulated = 0
-    for draw in range(velocities.size):
-        copy_state(stream, start)
-        n, members, touched, left = 0, 1, 0, n_collisions
-        while True:
-            scale = scales[members] if members < scales.size else touch_scale(members, n_particles)
-            left -= failures_before_success(scale, stream) + 1
-            if left < 0:
-                break
-            if n == first.size:
-                copy_state(start, stream)
-                return draw, simulated
-            i = index_below(members, stream)
-            j = members
-            if uniform(stream) * (2.0 * n_particles - members - 1) < members - 1:
-                j = index_below(members - 1, stream)
-                j += int64(j >= i)
-            else:
-                members += 1
-            first[n], second[n] = i, j
-            touched += int64(i == 0) + int64(j == 0)
-            n += 1
-        velocities[draw] = signed_root(replay(energy, members, first, second, n, stream), stream)
-        own[draw] = touched
-        simulated += n
-    return velocities.size, simulated
-
-
 @inlined
 def touch_scale(members, n_particles):
     """Return the `gap_scale` of the chance that a uniform pair touches the ancestors.
@@ -99,13 +59,49 @@ def touch_scale(members, n_particles):
     return gap_scale(members * (2.0 * size - members - 1.0) / (size * (size - 1.0)))
 
 
-@inlined
+@allocating
 def touch_scales(n_particles):
     """Return `touch_scale` for 0..255 members (a logarithm saved per collision)."""
     scales = np.empty(min(n_particles + 1, 256))
     for members in range(scales.size):
         scales[members] = touch_scale(members, n_particles)
     return scales
+
+
+@inlined
+def history(arguments, scales, tape, start, root, stream):
+    """Find the collisions of one draw, from the last of the ensemble's back to the first.
+
+    Those that touch no ancestor are skipped: their number before the next one is geometric.
+    """
+    n_particles, left = arguments
+    n, members, own = start, 1, 0
+    while True:
+        scale = scales[members] if members < scales.size else touch_scale(members, n_particles)
+        left -= failures_before_success(scale, stream) + 1
+        if left < 0:
+            return n, members, own
+        if n == tape.first.size:
+            return -1, members, own
+        # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.
+        i, j = two_below(members, 2 * n_particles - members - 1, stream)
+        if j < members - 1:
+            j += int64(j >= i)
+        else:
+            j = members
+            members += 1
+        tape.first[n], tape.second[n] = root + i, root + j
+        own += int64(i == 0) + int64(j == 0)
+        n += 1
+
+
+@allocating
+def prepare(arguments):
+    """Return `touch_scales` of the ensemble."""
+    return touch_scales(arguments[0])
+
+
+ancestral = ancestral_draws(prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate):

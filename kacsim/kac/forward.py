@@ -10,7 +10,7 @@ import numpy as np
 
 from kacsim.kac.constants import MEAN_ENERGY
 from kacsim.kac.perfect import squared_gap
-from kacsim.kernels.jit import inlined, kernel
+from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import pair_below, squared_cosine
 
 STOPPED, DOUBLED, LIMIT = range(3)  # of the mean corner: where D < tolerance, at 2**k, at the end
@@ -24,7 +24,7 @@ def arguments(*, n_particles, tolerance, energy=None):
     return n_particles, float(total), float(tolerance)
 
 
-@inlined
+@allocating
 def grown(pairs, parts, n, stream):
     """Return the inputs, pairs int64[k, 2] and sin(theta)**2 float64[k], and AHEAD more."""
     known = parts.size

@@ -6,20 +6,20 @@ import math
 import numpy as np
 
 from kacsim.kernels.jit import inlined
-from kacsim.variates import exponential, half_normal, random_sign, squared_cosine, unit_circle
+from kacsim.variates import maxwell_speed, random_sign, squared_cosine, unit_circle
 
 
 @inlined
 def initial_energy(stream):
-    """Return v**2 under f0(v) = 2/sqrt(pi) v**2 exp(-v**2): Gamma(3/2, 1) = Exp + Z**2/2."""
-    z = half_normal(stream)
-    return exponential(stream) + 0.5 * z * z
+    """Return v**2 under f0(v) = 2/sqrt(pi) v**2 exp(-v**2)."""
+    speed = maxwell_speed(stream)
+    return speed * speed
 
 
 @inlined
 def initial_velocity(stream):
-    """Return a velocity under f0: the root of `initial_energy` with a random sign."""
-    return math.sqrt(initial_energy(stream)) * random_sign(stream)
+    """Return a velocity under f0."""
+    return maxwell_speed(stream) * random_sign(stream)
 
 
 @inlined

@@ -6,16 +6,10 @@ import numpy as np
 from numba import int64
 
 from kacsim.kac.constants import n_steps
-from kacsim.kac.model import (
-    collide,
-    copy_state,
-    growing,
-    initial_velocity,
-    replay,
-    signed_root,
-)
+from kacsim.kac.model import collide, initial_velocity
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE, gain
-from kacsim.kernels.jit import inlined, kernel
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import failures_before_success, gap_scale, index_below, uniform
 
 
@@ -64,43 +58,6 @@ def forward(velocities, own, n_particles, steps, mean_pairs, stream):
     return simulated
 
 
-@growing
-@kernel
-def ancestral(velocities, own, n_particles, steps, mean_pairs, stream, first, second, energy):
-    """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
-
-    Steps whose pairs leave all ancestors alone are skipped geometrically; in the others the
-    ancestors' partners are revealed one after another.
-    """
-    taken = np.zeros(n_particles, np.bool_)
-    scales = touch_scales(n_particles, mean_pairs)
-    start = stream.copy()
-    simulated = 0
-    for draw in range(velocities.size):
-        copy_state(stream, start)
-        n, members, touched, left = 0, 1, 0, steps
-        while True:
-            scale = (
-                scales[members]
-                if members < scales.size
-                else touch_scale(members, n_particles, mean_pairs)
-            )
-            left -= failures_before_success(scale, stream) + 1
-            if left < 0:
-                break
-            if n + members > first.size:
-                copy_state(start, stream)
-                return draw, simulated
-            before = n
-            n, members = reveal(first, second, n, members, n_particles, mean_pairs, taken, stream)
-            for event in range(before, n):
-                touched += int64(first[event] == 0) + int64(second[event] == 0)
-        velocities[draw] = signed_root(replay(energy, members, first, second, n, stream), stream)
-        own[draw] = touched
-        simulated += n
-    return velocities.size, simulated
-
-
 @inlined
 def spared(members, n_particles, pairs):
     """Return the chance that a matching of `pairs` disjoint pairs leaves all members alone."""
@@ -119,7 +76,7 @@ def touch_scale(members, n_particles, mean_pairs):
     return gap_scale(1.0 - few + more * (few - spared(members, n_particles, whole + 1)))
 
 
-@inlined
+@allocating
 def touch_scales(n_particles, mean_pairs):
     """Return `touch_scale` for 0..255 members (a product over the members saved per step)."""
     scales = np.empty(min(n_particles + 1, 256))
@@ -129,12 +86,12 @@ def touch_scales(n_particles, mean_pairs):
 
 
 @inlined
-def reveal(first, second, n, members, n_particles, mean_pairs, taken, stream):
+def reveal(tape, n, root, members, n_particles, mean_pairs, taken, stream):
     """Record the pairs of one step that touch the ancestors, given that at least one does.
 
     Parameters
     ----------
-    first, second : int64[>= n + members], pairs, written from place n on
+    tape : written from place n on, at most at `members` places; root : slot of particle 1
     taken : bool[n_particles], all False, also on return: members paired as a partner
 
     Returns
@@ -165,7 +122,7 @@ def reveal(first, second, n, members, n_particles, mean_pairs, taken, stream):
             else:
                 j = members
                 members += 1
-            first[n], second[n] = i, j
+            tape.first[n], tape.second[n] = root + i, root + j
             n += 1
             pairs -= 1
             unseen -= 1
@@ -183,6 +140,41 @@ def untaken(i, rank, taken):
         rank -= not taken[j]
         j += 1
     return j
+
+
+@allocating
+def prepare(arguments):
+    """Return `touch_scales`, and marks of the members that have been paired as a partner."""
+    n_particles, _, mean_pairs = arguments
+    return touch_scales(n_particles, mean_pairs), np.zeros(n_particles, np.bool_)
+
+
+@inlined
+def history(arguments, prepared, tape, start, root, stream):
+    """Find the collisions of one draw, step by step backward.
+
+    Steps whose pairs leave all ancestors alone are skipped geometrically; in the others the
+    ancestors' partners are revealed one after another.
+    """
+    (n_particles, left, mean_pairs), (scales, taken) = arguments, prepared
+    n, members, own = start, 1, 0
+    while True:
+        if members < scales.size:
+            scale = scales[members]
+        else:
+            scale = touch_scale(members, n_particles, mean_pairs)
+        left -= failures_before_success(scale, stream) + 1
+        if left < 0:
+            return n, members, own
+        if n + members > tape.first.size:
+            return -1, members, own
+        before = n
+        n, members = reveal(tape, n, root, members, n_particles, mean_pairs, taken, stream)
+        for event in range(before, n):
+            own += int64(tape.first[event] == root) + int64(tape.second[event] == root)
+
+
+ancestral = ancestral_draws(prepare, history)
 
 
 def fourth_moment(*, n_particles, time, time_step, collision_rate):

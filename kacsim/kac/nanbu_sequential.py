@@ -3,18 +3,12 @@
 import numpy as np
 from numba import int64
 
-from kacsim.kac.model import (
-    copy_state,
-    deflect,
-    growing,
-    initial_energy,
-    initial_velocity,
-    signed_root,
-)
+from kacsim.kac.model import deflect, initial_velocity
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
-from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import failures_before_success, gap_scale, squared_cosine
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined, kernel
+from kacsim.variates import failures_before_success, gap_scale
 
 __all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
 
@@ -70,63 +64,58 @@ def insert(array, place, length, value):
     array[place] = value
 
 
-@growing
-@kernel
-def ancestral(velocities, own, n_particles, steps, probability, stream, first, second, energy):
-    """Draw v_1(t) from the ancestors only; same law and parameters as `forward`.
-
-    A step backward visits the ancestors from the highest label to the lowest. A new ancestor of
-    lower label is visited later in the same step, one of higher label was read before its turn.
-    """
-    scale = gap_scale(probability)
+@allocating
+def prepare(arguments):
+    """Return the scale of the gaps between collisions, and room for labels and slots."""
+    n_particles, _, probability = arguments
     labels, slots = np.empty(n_particles, np.int64), np.empty(n_particles, np.int64)
-    start = stream.copy()
-    simulated = 0
-    for draw in range(velocities.size):
-        copy_state(stream, start)
-        labels[0], slots[0] = 0, 0
-        n, members, touched, left, place = 0, 1, 0, steps, 0
-        gap = int64(failures_before_success(scale, stream))
-        while True:
-            if gap >= members - place:
-                left, gap = leave_step(left, gap - (members - place), members)
-                place = 0
-                if left <= 0:
-                    break
-            if n == first.size:
-                copy_state(start, stream)
-                return draw, simulated
-            place += gap
-            i, slot = labels[place], slots[place]
-            j = partner_of(i, n_particles, stream)
-            found = place_of(j, labels, members)
-            if found == members or labels[found] != j:
-                insert(labels, found, members, j)
-                insert(slots, found, members, members)
-                members += 1
-                place += int64(found <= place)
-            first[n], second[n] = slot, slots[found]
-            touched += int64(i == 0)
-            n += 1
-            place += 1
-            gap = int64(failures_before_success(scale, stream))
-        velocities[draw] = signed_root(
-            replay_in_place(energy, members, first, second, n, stream), stream
-        )
-        own[draw] = touched
-        simulated += n
-    return velocities.size, simulated
+    return gap_scale(probability), labels, slots
 
 
 @inlined
-def replay_in_place(energy, n_ancestors, first, second, n_events, stream):
-    """Draw the ancestors' energies and replay their collisions in order; return that of v_1."""
-    for i in range(n_ancestors):
-        energy[i] = initial_energy(stream)
+def history(arguments, prepared, tape, start, root, stream):
+    """Find the collisions of one draw, step by step backward.
+
+    A step visits the ancestors from the highest label to the lowest. A new ancestor of lower label
+    is visited later in the same step, one of higher label was read before its turn.
+    """
+    (n_particles, left, _), (scale, labels, slots) = arguments, prepared
+    labels[0], slots[0] = 0, root
+    n, members, own, place = start, 1, 0, 0
+    gap = int64(failures_before_success(scale, stream))
+    while True:
+        if gap >= members - place:
+            left, gap = leave_step(left, gap - (members - place), members)
+            place = 0
+            if left <= 0:
+                return n, members, own
+        if n == tape.first.size:
+            return -1, members, own
+        place += gap
+        i, slot = labels[place], slots[place]
+        j = partner_of(i, n_particles, stream)
+        found = place_of(j, labels, members)
+        if found == members or labels[found] != j:
+            insert(labels, found, members, j)
+            insert(slots, found, members, root + members)
+            members += 1
+            place += int64(found <= place)
+        tape.first[n], tape.second[n] = slot, slots[found]
+        own += int64(i == 0)
+        n += 1
+        place += 1
+        gap = int64(failures_before_success(scale, stream))
+
+
+@inlined
+def replay_in_place(tape, n_events):
+    """Replay collisions that change the first particle of the pair only, in order."""
     for event in range(n_events - 1, -1, -1):
-        total = energy[first[event]] + energy[second[event]]
-        energy[first[event]] = total * squared_cosine(stream)
-    return energy[0]
+        i = tape.first[event]
+        tape.energy[i] = (tape.energy[i] + tape.energy[tape.second[event]]) * tape.part[event]
+
+
+ancestral = ancestral_draws(prepare, history, replay_in_place)
 
 
 def fourth_moment(**process):

@@ -3,18 +3,12 @@
 import numpy as np
 from numba import int64
 
-from kacsim.kac.model import (
-    copy_state,
-    deflect,
-    growing,
-    initial_energy,
-    initial_velocity,
-    signed_root,
-)
+from kacsim.kac.model import deflect, initial_velocity
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
-from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import failures_before_success, gap_scale, squared_cosine, uniform
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined, kernel
+from kacsim.variates import failures_before_success, gap_scale, uniform
 
 __all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
 
@@ -53,71 +47,63 @@ def forward(velocities, own, n_particles, steps, probability, stream):
     return simulated
 
 
-@growing
-@kernel
-def ancestral(velocities, own, n_particles, steps, probability, stream, first, second, energy):
-    """Draw v_1(t) from the ancestors only; same law and parameters as `forward`.
+@allocating
+def prepare(arguments):
+    """Return the scale of the gaps between collisions."""
+    return gap_scale(arguments[2])
+
+
+@inlined
+def history(arguments, scale, tape, start, root, stream):
+    """Find the collisions of one draw, step by step backward.
 
     Ancestors found during a step are needed at its old level only: they take part from the
     next step backward on. Labels are not needed: the other particles are exchangeable.
     """
-    scale = gap_scale(probability)
-    step_of, new = np.empty(first.size, np.int64), np.empty(first.size)
-    start = stream.copy()
-    simulated = 0
-    for draw in range(velocities.size):
-        copy_state(stream, start)
-        n, members, old, touched, left, place = 0, 1, 1, 0, steps, 0
+    n_particles, left, _ = arguments
+    n, members, old, own, place = start, 1, 1, 0, 0
+    gap = int64(failures_before_success(scale, stream))
+    while True:
+        if gap >= old - place:
+            left, gap = leave_step(left, gap - (old - place), members)
+            old, place = members, 0
+            if left <= 0:
+                return n, members, own
+        if n == tape.first.size:
+            return -1, members, own
+        place += gap
+        j = members
+        if uniform(stream) * (n_particles - 1) < members - 1:
+            j = partner_of(place, members, stream)
+        else:
+            members += 1
+        tape.first[n], tape.second[n] = root + place, root + j
+        tape.mark[n] = left
+        own += int64(place == 0)
+        n += 1
+        place += 1
         gap = int64(failures_before_success(scale, stream))
-        while True:
-            if gap >= old - place:
-                left, gap = leave_step(left, gap - (old - place), members)
-                old, place = members, 0
-                if left <= 0:
-                    break
-            if n == first.size:
-                copy_state(start, stream)
-                return draw, simulated
-            place += gap
-            j = members
-            if uniform(stream) * (n_particles - 1) < members - 1:
-                j = partner_of(place, members, stream)
-            else:
-                members += 1
-            first[n], second[n], step_of[n] = place, j, left
-            touched += int64(place == 0)
-            n += 1
-            place += 1
-            gap = int64(failures_before_success(scale, stream))
-        velocities[draw] = signed_root(
-            replay_steps(energy, members, first, second, step_of, new, n, stream), stream
-        )
-        own[draw] = touched
-        simulated += n
-    return velocities.size, simulated
 
 
 @inlined
-def replay_steps(energy, n_ancestors, first, second, step_of, new, n_events, stream):
-    """Draw the ancestors' energies and replay step by step, each at its old level.
+def replay_steps(tape, n_events):
+    """Replay collisions that change the first particle of the pair only, each step at its old level.
 
-    Parameters
-    ----------
-    step_of : int64[n_events], the step of each collision, not increasing in time
-    new : float64[>= n_events], overwritten
+    Two draws' collisions share no slot, so that it does no harm if a step runs into another draw's.
     """
-    for i in range(n_ancestors):
-        energy[i] = initial_energy(stream)
-    event = n_events - 1
-    while event >= 0:
-        last = event
-        while event >= 0 and step_of[event] == step_of[last]:
-            total = energy[first[event]] + energy[second[event]]
-            new[event] = total * squared_cosine(stream)
+    last = n_events - 1
+    while last >= 0:
+        event = last
+        while event >= 0 and tape.mark[event] == tape.mark[last]:
+            total = tape.energy[tape.first[event]] + tape.energy[tape.second[event]]
+            tape.new[event] = total * tape.part[event]
             event -= 1
         for k in range(event + 1, last + 1):
-            energy[first[k]] = new[k]
-    return energy[0]
+            tape.energy[tape.first[k]] = tape.new[k]
+        last = event
+
+
+ancestral = ancestral_draws(prepare, history, replay_steps)
 
 
 def fourth_moment(**process):

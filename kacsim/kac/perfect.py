@@ -14,7 +14,7 @@ import numpy as np
 
 from kacsim.elementary.logarithm import log
 from kacsim.kac.constants import MEAN_ENERGY
-from kacsim.kernels.jit import inlined, kernel
+from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import pair_below, random_sign, squared_cosine
 
 # Contraction of D per step is about RATE / N: a guess that sets when D is checked, nothing else.
@@ -81,7 +81,7 @@ def squared_gaps(roots, point, gaps):
             gaps[i] += gap * gap
 
 
-@inlined
+@allocating
 def farthest_pair(images, roots, centre, radii, gaps, goal, pair):
     """Return D**2, the largest squared distance of two corner images, in units of the energy.
 

@@ -11,17 +11,11 @@ import numpy as np
 from numba import int64
 
 from kacsim.elementary.exponential import expm1
-from kacsim.kac.model import (
-    collide,
-    copy_state,
-    growing,
-    initial_velocity,
-    replay,
-    signed_root,
-)
+from kacsim.kac.model import collide, initial_velocity
 from kacsim.kac.moments import INITIAL_SQUARE, gain
-from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import exponential, index_below, pair_below, uniform
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined, kernel
+from kacsim.variates import exponential, index_below, pair_below, two_below, uniform
 
 
 def arguments(*, n_particles, time, collision_rate):
@@ -90,49 +84,63 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
     return simulated
 
 
-@growing
-@kernel
-def ancestral(velocities, own, n_particles, mean_own, pair_rate, stream, first, second, energy):
-    """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`.
+@inlined
+def others_rate(others, reach, pair_rate):
+    """Return the rate of collisions that touch one of the ancestors other than particle 1."""
+    return others * (reach - 0.5 * pair_rate * (others + 1))
+
+
+@allocating
+def prepare(arguments):
+    """Return (1 / (N - 1), pair rate times N - 1, mean pauses for 0..255 ancestors beside particle 1).
+
+    Infinitely many particles (0) have 0 and 1.
+    """
+    n_particles, _, pair_rate = arguments
+    inverse, reach = 0.0, 1.0
+    if n_particles > 0:
+        inverse, reach = 1.0 / (n_particles - 1), pair_rate * (n_particles - 1)
+    pauses = np.empty(256)
+    for others in range(pauses.size):
+        pauses[others] = 1.0 / (1.0 + others_rate(others, reach, pair_rate))
+    return inverse, reach, pauses
+
+
+@inlined
+def history(arguments, prepared, tape, start, root, stream):
+    """Find the collisions of one draw, from one to the one before it through exponential pauses.
 
     Infinitely many particles (0) give McKean's tree: exact draws of the Kac equation.
     """
-    inverse = 0.0 if n_particles == 0 else 1.0 / (n_particles - 1)
-    reach = 1.0 if n_particles == 0 else pair_rate * (n_particles - 1)
-    start = stream.copy()
-    simulated = 0
-    for draw in range(velocities.size):
-        copy_state(stream, start)
-        n, others, touched, left = 0, 0, 0, mean_own
-        while True:
-            # Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
-            others_rate = others * (reach - 0.5 * pair_rate * (others + 1))
-            total = 1.0 + others_rate
-            left -= exponential(stream) / total
-            if left < 0.0:
-                break
-            if n == first.size:
-                copy_state(start, stream)
-                return draw, simulated
-            if uniform(stream) * total < 1.0:
-                i = 0
-                touched += 1
-                inner = uniform(stream) < others * inverse
-                j = 1 + index_below(others, stream)
-            else:
-                i = 1 + index_below(others, stream)
-                inner = uniform(stream) * others_rate < 0.5 * pair_rate * others * (others - 1)
-                j = 1 + index_below(others - 1, stream)
-                j += int64(j >= i)
-            if not inner:
-                others += 1
-                j = others
-            first[n], second[n] = i, j
-            n += 1
-        velocities[draw] = signed_root(replay(energy, others + 1, first, second, n, stream), stream)
-        own[draw] = touched
-        simulated += n
-    return velocities.size, simulated
+    (_, left, pair_rate), (inverse, reach, pauses) = arguments, prepared
+    n, others, own = start, 0, 0
+    while True:
+        # Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
+        rest = others_rate(others, reach, pair_rate)
+        pause = pauses[others] if others < pauses.size else 1.0 / (1.0 + rest)
+        left -= exponential(stream) * pause
+        if left < 0.0:
+            return n, others + 1, own
+        if n == tape.first.size:
+            return -1, others + 1, own
+        place = uniform(stream) * (1.0 + rest)
+        if place < 1.0:
+            i = 0
+            own += 1
+            inner = place < others * inverse
+            j = 1 + int64(place / inverse) if inner else 0
+        else:
+            inner = place - 1.0 < 0.5 * pair_rate * others * (others - 1)
+            i, j = two_below(others, max(1, others - 1), stream)
+            i, j = 1 + i, 1 + j + int64(j >= i)
+        if not inner:
+            others += 1
+            j = others
+        tape.first[n], tape.second[n] = root + i, root + j
+        n += 1
+
+
+ancestral = ancestral_draws(prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate):

@@ -1,4 +1,4 @@
-"""The three numba decorators of the package."""
+"""The four numba decorators of the package."""
 
 import numba
 
@@ -13,8 +13,12 @@ def kernel(function):
     return cache.cached(numba.njit(error_model=ERROR_MODEL)(function))
 
 
-# Called from kernels: forced inlining spares an atomic reference count of the stream per call.
-inlined = numba.njit(forceinline=True, error_model=ERROR_MODEL)
+# Called from kernels. It borrows the arrays that it is given: no reference is counted, which takes an
+# atomic addition each time. So it can neither make nor return an array.
+inlined = numba.njit(forceinline=True, _nrt=False, error_model=ERROR_MODEL)
 
 # Called from kernels for what is rare and long: inlining it everywhere would cost compile time.
-apart = numba.njit(error_model=ERROR_MODEL)
+apart = numba.njit(_nrt=False, error_model=ERROR_MODEL)
+
+# Called from kernels, before their loops: it may make arrays.
+allocating = numba.njit(error_model=ERROR_MODEL)

@@ -1,0 +1,131 @@
+"""Ancestral draws: histories of several draws on one tape, then all their energies at once.
+
+An algorithm says how the collisions that touch particle 1's ancestors are found, going back from t:
+its `history` writes the pairs of one draw on the tape. What follows is the same for all: energies
+at time 0 for the ancestors of every draw on the tape, an angle for every collision, and the replay,
+each in one long loop that does not stop between draws.
+"""
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+
+from kacsim.kac.model import initial_energy, signed_root
+from kacsim.kernels.jit import inlined, kernel
+from kacsim.variates import squared_cosine
+
+LEAST = 4096
+MOST_DRAWS = 512
+
+
+class Tape(NamedTuple):
+    """Histories, one draw's after another's.
+
+    Attributes
+    ----------
+    first, second, mark : int64[capacity], slots of each collision's pair, the latest collision of a
+        draw first; and what else an algorithm notes of it
+    part, new : float64[capacity], cos(theta)**2 of each collision; workspace
+    energy : float64[capacity + MOST_DRAWS], of the ancestor in each slot
+    root : int64[MOST_DRAWS], slot of particle 1 of each draw
+    """
+
+    first: object
+    second: object
+    mark: object
+    part: object
+    new: object
+    energy: object
+    root: object
+
+
+def new_tape(capacity):
+    """Return an empty tape."""
+    whole = [np.empty(capacity, np.int64) for _ in range(3)]
+    real = [np.empty(capacity), np.empty(capacity), np.empty(capacity + MOST_DRAWS)]
+    return Tape(*whole, *real, np.empty(MOST_DRAWS, np.int64))
+
+
+@inlined
+def copy_state(source, target):
+    """Copy a stream's state, uint64[4]."""
+    for k in range(4):
+        target[k] = source[k]
+
+
+@inlined
+def share(tape, n_events):
+    """Replay collisions that share the pair's energy as a rotation by a uniform angle does.
+
+    A uniform rotation makes v_i**2 = (v_i**2 + v_j**2) cos(theta)**2 with theta uniform, and both
+    signs uniform and independent of all energies; the sign of v_1 is drawn once, at the end.
+    """
+    for event in range(n_events - 1, -1, -1):
+        i, j = tape.first[event], tape.second[event]
+        total = tape.energy[i] + tape.energy[j]
+        tape.energy[i] = total * tape.part[event]
+        tape.energy[j] = total - tape.energy[i]
+
+
+def ancestral_draws(prepare, history, replay=share):
+    """Return an algorithm's ancestral kernel.
+
+    Parameters
+    ----------
+    prepare : kernel (arguments) -> what all histories of one call share
+    history : kernel (arguments, prepared, tape, start, root, stream) -> (events, ancestors, own).
+        Writes one draw's collisions on the tape from place `start` on, its ancestors having the
+        slots from `root` on; `events` is the place after them, or -1 if they do not fit, `own` the
+        number of collisions of particle 1.
+    replay : kernel (tape, n_events), turns energies at time 0 into those at time t
+
+    Returns
+    -------
+    function (velocities, own, *arguments, stream) -> int, collisions simulated, as a forward kernel
+    """
+
+    @inlined
+    def play(tape, velocities, n_events, n_slots, stream):
+        for slot in range(n_slots):
+            tape.energy[slot] = initial_energy(stream)
+        for event in range(n_events):
+            tape.part[event] = squared_cosine(stream)
+        replay(tape, n_events)
+        for draw in range(velocities.size):
+            velocities[draw] = signed_root(tape.energy[tape.root[draw]], stream)
+
+    @kernel
+    def attempt(velocities, own, arguments, stream, tape):
+        """Draw until a history does not fit on the tape; return (draws, collisions simulated)."""
+        prepared = prepare(arguments)
+        before = stream.copy()
+        begun, events, root, simulated = 0, 0, 0, 0
+        for draw in range(velocities.size):
+            if 2 * events > tape.first.size or draw - begun == MOST_DRAWS:
+                play(tape, velocities[begun:draw], events, root, stream)
+                begun, events, root = draw, 0, 0
+            copy_state(stream, before)
+            tape.root[draw - begun] = root
+            more, ancestors, own[draw] = history(arguments, prepared, tape, events, root, stream)
+            if more < 0:
+                copy_state(before, stream)
+                play(tape, velocities[begun:draw], events, root, stream)
+                return draw, simulated
+            simulated += more - events
+            events, root = more, root + ancestors
+        play(tape, velocities[begun:], events, root, stream)
+        return velocities.size, simulated
+
+    @functools.wraps(history)
+    def ancestral(velocities, own, *arguments):
+        done, simulated, capacity = 0, 0, LEAST
+        while done < velocities.size:
+            tape, rest = new_tape(capacity), (velocities[done:], own[done:])
+            more, collisions = attempt(*rest, arguments[:-1], arguments[-1], tape)
+            done += more
+            simulated += collisions
+            capacity *= 2
+        return simulated
+
+    return ancestral

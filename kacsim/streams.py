@@ -8,9 +8,15 @@ into the kernels; its 256 bits of state come from numpy's ``SeedSequence``. A st
 import hashlib
 
 import numpy as np
-from numba import uint64
+from numba import int64, uint64
 
-from kacsim.kernels.jit import inlined
+from kacsim.kernels.jit import apart, inlined
+from kacsim.kernels.lanes import LANES, fill
+
+# A stream is one array: the lanes' states, the place of the next word, words.
+PLACE = 4 * LANES
+FIRST = PLACE + LANES
+END = FIRST + 256
 
 CHUNK = 8192  # draws of one call of a kernel, which are then summed
 
@@ -32,7 +38,10 @@ def new_stream(seed, name="", replicate=0):
     # The length first: SeedSequence pads with zeros, so two entropies could coincide without it.
     seed_words = _words(seed)
     entropy = [len(seed_words), *seed_words, *map(int, words), *_words(replicate)]
-    return np.random.SeedSequence(entropy).generate_state(4, np.uint64)
+    stream = np.zeros(END, np.uint64)
+    stream[:PLACE] = np.random.SeedSequence(entropy).generate_state(4 * LANES, np.uint64)
+    stream[PLACE] = END
+    return stream
 
 
 def _words(number):
@@ -45,15 +54,28 @@ def _words(number):
 
 @inlined
 def next_bits(stream):
-    """Advance the stream by one step; return 64 random bits (uint64)."""
-    s0, s1, s2, s3 = stream[0], stream[1], stream[2], stream[3]
-    sum03 = s0 + s3
-    bits = ((sum03 << uint64(23)) | (sum03 >> uint64(41))) + s0
-    shifted = s1 << uint64(17)
-    s2 ^= s0
-    s3 ^= s1
-    stream[1] = s1 ^ s2
-    stream[0] = s0 ^ s3
-    stream[2] = s2 ^ shifted
-    stream[3] = (s3 << uint64(45)) | (s3 >> uint64(19))
-    return bits
+    """Return the stream's next 64 random bits (uint64)."""
+    place = stream[PLACE]
+    if place == uint64(END):
+        refill(stream)
+        place = uint64(FIRST)
+    stream[PLACE] = place + uint64(1)
+    return stream[place]
+
+
+@inlined
+def next_block(n, stream):
+    """Return the stream's next words as a part of it, at least one and at most n."""
+    place = int64(stream[PLACE])
+    if place == END:
+        refill(stream)
+        place = FIRST
+    stop = min(place + n, END)
+    stream[PLACE] = uint64(stop)
+    return place, stop
+
+
+@apart
+def refill(stream):
+    """Put new words into the buffer."""
+    fill(stream, 0, FIRST, END)

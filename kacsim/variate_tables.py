@@ -91,5 +91,5 @@ SPEED_SCALE = SPEED_WIDTH / np.maximum(SPEED_SURE, 1)
 SPEED_TAIL = float(SPEED_EDGE[-1])
 
 # Cosine and sine of fixed points on the circle, one after another.
-POINTS = len(CIRCLE)
-COS_SIN = CIRCLE[:, :2].ravel()
+POINTS = 1024
+COS_SIN = np.array([(np.cos(2*np.pi*k/1024),np.sin(2*np.pi*k/1024)) for k in range(1024)]).ravel()

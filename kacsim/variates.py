@@ -14,7 +14,7 @@ from kacsim.elementary.exponential import exp
 from kacsim.elementary.logarithm import log, log1p
 from kacsim.kernels.jit import apart, inlined
 from kacsim.kernels.wide import product
-from kacsim.streams import next_bits
+from kacsim.streams import next_block, next_bits
 from kacsim.variate_tables import (
     COS_SIN,
     E_TAIL,
@@ -126,8 +126,7 @@ def maxwell_speed(stream):
     good as a place.
     """
     bits = next_bits(stream)
-    strip = int64(bits & uint64(LAYERS - 1))
-    height = int64(bits >> uint64(11))
+    strip, height = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
     if height < SPEED_SURE[strip]:
         return SPEED_EDGE[strip] + height * SPEED_SCALE[strip]
     return _speed_beside(strip, stream)
@@ -136,14 +135,13 @@ def maxwell_speed(stream):
 @apart
 def _speed_beside(strip, stream):
     """Return the speed for a height above the least density of a strip."""
-    while strip < LAYERS - 1:
+    while strip < uint64(LAYERS - 1):
         x = SPEED_EDGE[strip] + uniform(stream) * SPEED_WIDTH[strip]
         step = SPEED_LARGEST[strip] - SPEED_LEAST[strip]
         if SPEED_LEAST[strip] + uniform(stream) * step < x * x * exp(1.0 - x * x):
             return x
         bits = next_bits(stream)
-        strip = int64(bits & uint64(LAYERS - 1))
-        height = int64(bits >> uint64(11))
+        strip, height = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
         if height < SPEED_SURE[strip]:
             return SPEED_EDGE[strip] + height * SPEED_SCALE[strip]
     while True:
@@ -154,29 +152,63 @@ def _speed_beside(strip, stream):
 
 
 @inlined
-def _turned(stream):
+def maxwell_energies(values, n, stream):
+    """Set the first n values to independent squares of `maxwell_speed`."""
+    done = 0
+    while done < n:
+        start, stop = next_block(n - done, stream)
+        words, block = stream[start:stop], values[done : done + stop - start]
+        for k in range(block.size):
+            strip, height = words[k] & uint64(LAYERS - 1), int64(words[k] >> uint64(11))
+            x = SPEED_EDGE[strip] + height * SPEED_SCALE[strip]
+            block[k] = x * x if height < SPEED_SURE[strip] else -1.0 - int64(strip)
+        for k in range(block.size):
+            if block[k] < 0.0:
+                block[k] = _speed_beside(uint64(-1.0 - block[k]), stream) ** 2
+        done += block.size
+
+
+@inlined
+def _turned(bits):
     """Return (place of a uniform fixed point, cos, sin of a uniform turn within half a step)."""
-    bits = next_bits(stream)
-    turn = (int64(bits) >> int64(11)) * (2.0 * math.pi / POINTS * UNIT)  # a signed number of 53 bits
+    turn = (int64(bits) >> int64(11)) * (2.0 * math.pi / POINTS * UNIT)  # signed, of 53 bits
     square = turn * turn
-    cos = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0)))
-    sin = turn * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0)))
-    return 2 * int64(bits & uint64(POINTS - 1)), cos, sin
+    cos = 1.0 - square * (0.5 - square * (1.0 / 24.0))
+    sin = turn * (1.0 - square * (1.0 / 6.0))
+    return uint64(2) * (bits & uint64(POINTS - 1)), cos, sin
 
 
 @inlined
 def unit_circle(stream):
     """Return (cos, sin) of a uniform angle."""
-    place, cos, sin = _turned(stream)
-    x, y = COS_SIN[place], COS_SIN[place + 1]
+    place, cos, sin = _turned(next_bits(stream))
+    x, y = COS_SIN[place], COS_SIN[place + uint64(1)]
     return x * cos - y * sin, y * cos + x * sin
 
 
 @inlined
 def squared_cosine(stream):
     """Return cos(theta)**2 of a uniform angle, (1 + cos(2 theta)) / 2: a Beta(1/2, 1/2) variate."""
-    place, cos, sin = _turned(stream)
-    return max(0.0, 0.5 + 0.5 * (COS_SIN[place] * cos - COS_SIN[place + 1] * sin))
+    return _squared(next_bits(stream))
+
+
+@inlined
+def _squared(bits):
+    place, cos, sin = _turned(bits)
+    cos_twice = COS_SIN[place] * cos - COS_SIN[place + uint64(1)] * sin
+    return max(0.0, 0.5 + 0.5 * cos_twice)
+
+
+@inlined
+def squared_cosines(values, n, stream):
+    """Set the first n values to independent `squared_cosine`s."""
+    done = 0
+    while done < n:
+        start, stop = next_block(n - done, stream)
+        words, block = stream[start:stop], values[done : done + stop - start]
+        for k in range(block.size):
+            block[k] = _squared(words[k])
+        done += block.size
 
 
 @inlined

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kacsim.kac.model import initial_energy, signed_root
+from kacsim.kac.model import signed_root
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.variates import squared_cosine
+from kacsim.variates import maxwell_energies, squared_cosines
 
 LEAST = 4096
 MOST_DRAWS = 512
@@ -45,13 +45,6 @@ def new_tape(capacity):
     whole = [np.empty(capacity, np.int64) for _ in range(3)]
     real = [np.empty(capacity), np.empty(capacity), np.empty(capacity + MOST_DRAWS)]
     return Tape(*whole, *real, np.empty(MOST_DRAWS, np.int64))
-
-
-@inlined
-def copy_state(source, target):
-    """Copy a stream's state, uint64[4]."""
-    for k in range(4):
-        target[k] = source[k]
 
 
 @inlined
@@ -87,10 +80,8 @@ def ancestral_draws(prepare, history, replay=share):
 
     @inlined
     def play(tape, velocities, n_events, n_slots, stream):
-        for slot in range(n_slots):
-            tape.energy[slot] = initial_energy(stream)
-        for event in range(n_events):
-            tape.part[event] = squared_cosine(stream)
+        maxwell_energies(tape.energy, n_slots, stream)
+        squared_cosines(tape.part, n_events, stream)
         replay(tape, n_events)
         for draw in range(velocities.size):
             velocities[draw] = signed_root(tape.energy[tape.root[draw]], stream)
@@ -100,22 +91,24 @@ def ancestral_draws(prepare, history, replay=share):
         """Draw until a history does not fit on the tape; return (draws, collisions simulated)."""
         prepared = prepare(arguments)
         before = stream.copy()
-        begun, events, root, simulated = 0, 0, 0, 0
-        for draw in range(velocities.size):
-            if 2 * events > tape.first.size or draw - begun == MOST_DRAWS:
-                play(tape, velocities[begun:draw], events, root, stream)
-                begun, events, root = draw, 0, 0
-            copy_state(stream, before)
-            tape.root[draw - begun] = root
-            more, ancestors, own[draw] = history(arguments, prepared, tape, events, root, stream)
-            if more < 0:
-                copy_state(before, stream)
-                play(tape, velocities[begun:draw], events, root, stream)
-                return draw, simulated
-            simulated += more - events
-            events, root = more, root + ancestors
-        play(tape, velocities[begun:], events, root, stream)
-        return velocities.size, simulated
+        draw, simulated = 0, 0
+        while draw < velocities.size:
+            before[:] = stream
+            begun, events, root = draw, 0, 0
+            last = min(draw + MOST_DRAWS, velocities.size)
+            while draw < last and 2 * events <= tape.first.size:
+                tape.root[draw - begun] = root
+                events, ancestors, own[draw] = history(
+                    arguments, prepared, tape, events, root, stream
+                )
+                if events < 0:
+                    stream[:] = before
+                    return begun, simulated
+                root += ancestors
+                draw += 1
+            play(tape, velocities[begun:draw], events, root, stream)
+            simulated += events
+        return draw, simulated
 
     @functools.wraps(history)
     def ancestral(velocities, own, *arguments):

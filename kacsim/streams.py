@@ -16,7 +16,8 @@ from kacsim.kernels.lanes import LANES, fill
 # A stream is one array: the lanes' states, the place of the next word, words.
 PLACE = 4 * LANES
 FIRST = PLACE + LANES
-END = FIRST + 256
+BLOCK = 256  # words made at a time
+END = FIRST + BLOCK
 
 CHUNK = 8192  # draws of one call of a kernel, which are then summed
 

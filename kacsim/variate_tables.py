@@ -5,7 +5,6 @@ from decimal import Decimal
 
 import numpy as np
 
-from kacsim.elementary.circular import CIRCLE
 from kacsim.elementary.decimals import precise
 
 LAYERS = 256
@@ -92,4 +91,6 @@ SPEED_TAIL = float(SPEED_EDGE[-1])
 
 # Cosine and sine of fixed points on the circle, one after another.
 POINTS = 1024
-COS_SIN = np.array([(np.cos(2*np.pi*k/1024),np.sin(2*np.pi*k/1024)) for k in range(1024)]).ravel()
+COS_SIN = np.array(
+    [(np.cos(2 * np.pi * k / 1024), np.sin(2 * np.pi * k / 1024)) for k in range(1024)]
+).ravel()

@@ -14,7 +14,7 @@ from kacsim.elementary.exponential import exp
 from kacsim.elementary.logarithm import log, log1p
 from kacsim.kernels.jit import apart, inlined
 from kacsim.kernels.wide import product
-from kacsim.streams import next_block, next_bits
+from kacsim.streams import next_bits, next_block
 from kacsim.variate_tables import (
     COS_SIN,
     E_TAIL,
@@ -122,8 +122,8 @@ def normal(stream):
 def maxwell_speed(stream):
     """Return a variate of density 4 / sqrt(pi) x**2 exp(-x**2), x > 0.
 
-    One call of the generator gives the strip and a height; one below the strip's least density is as
-    good as a place.
+    One call of the generator gives the strip and a height; one below the strip's least density is
+    as good as a place.
     """
     bits = next_bits(stream)
     strip, height = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
@@ -152,19 +152,27 @@ def _speed_beside(strip, stream):
 
 
 @inlined
-def maxwell_energies(values, n, stream):
-    """Set the first n values to independent squares of `maxwell_speed`."""
+def maxwell_energies(values, missed, n, stream):
+    """Set the first n values to independent squares of `maxwell_speed`.
+
+    Parameters
+    ----------
+    missed : uint64[>= BLOCK], workspace: what was above the least density of its strip
+    """
     done = 0
     while done < n:
         start, stop = next_block(n - done, stream)
         words, block = stream[start:stop], values[done : done + stop - start]
+        n_missed = 0
         for k in range(block.size):
             strip, height = words[k] & uint64(LAYERS - 1), int64(words[k] >> uint64(11))
             x = SPEED_EDGE[strip] + height * SPEED_SCALE[strip]
-            block[k] = x * x if height < SPEED_SURE[strip] else -1.0 - int64(strip)
-        for k in range(block.size):
-            if block[k] < 0.0:
-                block[k] = _speed_beside(uint64(-1.0 - block[k]), stream) ** 2
+            block[k] = x * x
+            missed[n_missed] = uint64(k * LAYERS) | strip
+            n_missed += int64(height >= SPEED_SURE[strip])
+        for m in range(n_missed):
+            strip = missed[m] & uint64(LAYERS - 1)
+            block[missed[m] // uint64(LAYERS)] = _speed_beside(strip, stream) ** 2
         done += block.size
 
 

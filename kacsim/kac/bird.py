@@ -60,9 +60,10 @@ def touch_scale(members, n_particles):
 
 
 @allocating
-def touch_scales(n_particles):
-    """Return `touch_scale` for 0..255 members (a logarithm saved per collision)."""
-    scales = np.empty(min(n_particles + 1, 256))
+def prepare(arguments, most):
+    """Return `touch_scale` for fewer than `most` ancestors: a logarithm saved per collision."""
+    n_particles = arguments[0]
+    scales = np.empty(min(n_particles + 1, most))
     for members in range(scales.size):
         scales[members] = touch_scale(members, n_particles)
     return scales
@@ -77,11 +78,10 @@ def history(arguments, scales, tape, start, root, stream):
     n_particles, left = arguments
     n, members, own = start, 1, 0
     while True:
-        scale = scales[members] if members < scales.size else touch_scale(members, n_particles)
-        left -= failures_before_success(scale, stream) + 1
+        left -= failures_before_success(scales[members], stream) + 1
         if left < 0:
             return n, members, own
-        if n == tape.first.size:
+        if n == tape.first.size or members == scales.size:
             return -1, members, own
         # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.
         i, j = two_below(members, 2 * n_particles - members - 1, stream)
@@ -93,12 +93,6 @@ def history(arguments, scales, tape, start, root, stream):
         tape.first[n], tape.second[n] = root + i, root + j
         own += int64(i == 0) + int64(j == 0)
         n += 1
-
-
-@allocating
-def prepare(arguments):
-    """Return `touch_scales` of the ensemble."""
-    return touch_scales(arguments[0])
 
 
 ancestral = ancestral_draws(prepare, history)

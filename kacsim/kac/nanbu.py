@@ -30,5 +30,5 @@ def partner_of(i, n_particles, stream):
 @inlined
 def leave_step(left, gap, members):
     """Return (steps left, gap) after the end of a step and the whole steps that the gap spans."""
-    whole = gap // members
+    whole = int64(gap / members)  # exact below 2**52, and faster than a division of integers
     return left - 1 - whole, gap - whole * members

@@ -58,65 +58,77 @@ def forward(velocities, own, n_particles, steps, mean_pairs, stream):
     return simulated
 
 
-@inlined
-def spared(members, n_particles, pairs):
-    """Return the chance that a matching of `pairs` disjoint pairs leaves all members alone."""
-    chance = 1.0
-    for k in range(members):
-        chance *= max(0.0, 1.0 - 2.0 * pairs / (n_particles - k))
-    return chance
-
-
-@inlined
-def touch_scale(members, n_particles, mean_pairs):
-    """Return the `gap_scale` of the chance that a step touches at least one ancestor."""
-    whole = int64(mean_pairs)
-    more = mean_pairs - whole
-    few = spared(members, n_particles, whole)
-    return gap_scale(1.0 - few + more * (few - spared(members, n_particles, whole + 1)))
-
-
 @allocating
-def touch_scales(n_particles, mean_pairs):
-    """Return `touch_scale` for 0..255 members (a product over the members saved per step)."""
-    scales = np.empty(min(n_particles + 1, 256))
-    for members in range(scales.size):
-        scales[members] = touch_scale(members, n_particles, mean_pairs)
-    return scales
+def prepare(arguments, most):
+    """Return what all draws share.
+
+    Returns
+    -------
+    scale : float64[n], `gap_scale` of the chance that a step touches one of s ancestors, s < n
+    touch : float64[2, n], chances that it does with the lesser and with the greater number of
+        pairs, times that number's chance
+    alone : float64[2, n], chances that it does not, given the number
+    taken : bool[n], all False: ancestors paired as a partner in a step
+
+    n is `most`, or all particles and one.
+    """
+    n_particles, _, mean_pairs = arguments
+    whole = int64(mean_pairs)
+    chances = 1.0 - (mean_pairs - whole), mean_pairs - whole
+    size = min(n_particles + 1, most)
+    scale, touch, alone = np.empty(size), np.empty((2, size)), np.ones((2, size))
+    for s in range(size):
+        for more in range(2):
+            if s > 0:
+                pairs, others = whole + more, n_particles - (s - 1)
+                alone[more, s] = alone[more, s - 1] * max(0.0, 1.0 - 2.0 * pairs / others)
+            touch[more, s] = chances[more] * (1.0 - alone[more, s])
+        scale[s] = gap_scale(touch[0, s] + touch[1, s])
+    return scale, touch, alone, np.zeros(size, np.bool_)
 
 
 @inlined
-def reveal(tape, n, root, members, n_particles, mean_pairs, taken, stream):
-    """Record the pairs of one step that touch the ancestors, given that at least one does.
+def first_touched(members, n_particles, mean_pairs, touch, alone, stream):
+    """Return (lowest ancestor touched, pairs) of a step that touches at least one."""
+    place = uniform(stream) * (touch[0, members] + touch[1, members])
+    more = int64(place >= touch[0, members])
+    whole = int64(mean_pairs)
+    if more:
+        place = (place - touch[0, members]) / (mean_pairs - whole)
+    else:
+        place /= 1.0 - (mean_pairs - whole)
+    lead = 0
+    while lead < members - 1 and 1.0 - alone[more, lead + 1] <= place:
+        lead += 1
+    return lead, whole + more
+
+
+@inlined
+def reveal(tape, n, root, members, n_particles, lead, pairs, taken, stream):
+    """Record the pairs of one step that touch the ancestors.
 
     Parameters
     ----------
     tape : written from place n on, at most at `members` places; root : slot of particle 1
-    taken : bool[n_particles], all False, also on return: members paired as a partner
+    lead, pairs : the lowest ancestor touched, the pairs of the step
+    taken : bool[>= members], all False, also on return: members paired as a partner
 
     Returns
     -------
     (int, int), the numbers of pairs recorded and of ancestors
     """
-    whole = int64(mean_pairs)
-    more = mean_pairs - whole
-    touch_few = (1.0 - more) * (1.0 - spared(members, n_particles, whole))
-    touch_more = more * (1.0 - spared(members, n_particles, whole + 1))
-    pairs = whole + int64(uniform(stream) * (touch_few + touch_more) >= touch_few)
-    # The first member touched, by inversion of its conditional law.
-    target = uniform(stream) * (1.0 - spared(members, n_particles, pairs))
-    lead, alone = 0, 1.0 - 2.0 * pairs / n_particles
-    while lead < members - 1 and 1.0 - alone <= target:
-        lead += 1
-        alone *= 1.0 - 2.0 * pairs / (n_particles - lead)
     known, unseen, free = members, n_particles - lead, members - lead
+    # By inversion: the members up to the next one touched are left alone with a chance below it.
+    alone, target = 0.0, 0.0
     for i in range(lead, known):
         if taken[i]:
             continue
         # `unseen` particles, `free` of them members from i on, hold the remaining pairs.
-        if i == lead or uniform(stream) * unseen < 2.0 * pairs:
-            if uniform(stream) * (unseen - 1) < free - 1:
-                j = untaken(i, index_below(free - 1, stream), taken)
+        alone *= 1.0 - 2.0 * pairs / unseen
+        if alone <= target:
+            rank = index_below(unseen - 1, stream)
+            if rank < free - 1:
+                j = untaken(i, rank, taken)
                 taken[j] = True
                 free -= 1
             else:
@@ -126,6 +138,7 @@ def reveal(tape, n, root, members, n_particles, mean_pairs, taken, stream):
             n += 1
             pairs -= 1
             unseen -= 1
+            alone, target = 1.0, uniform(stream)
         unseen -= 1
         free -= 1
     taken[:known] = False
@@ -142,13 +155,6 @@ def untaken(i, rank, taken):
     return j
 
 
-@allocating
-def prepare(arguments):
-    """Return `touch_scales`, and marks of the members that have been paired as a partner."""
-    n_particles, _, mean_pairs = arguments
-    return touch_scales(n_particles, mean_pairs), np.zeros(n_particles, np.bool_)
-
-
 @inlined
 def history(arguments, prepared, tape, start, root, stream):
     """Find the collisions of one draw, step by step backward.
@@ -156,20 +162,17 @@ def history(arguments, prepared, tape, start, root, stream):
     Steps whose pairs leave all ancestors alone are skipped geometrically; in the others the
     ancestors' partners are revealed one after another.
     """
-    (n_particles, left, mean_pairs), (scales, taken) = arguments, prepared
+    (n_particles, left, mean_pairs), (scale, touch, alone, taken) = arguments, prepared
     n, members, own = start, 1, 0
     while True:
-        if members < scales.size:
-            scale = scales[members]
-        else:
-            scale = touch_scale(members, n_particles, mean_pairs)
-        left -= failures_before_success(scale, stream) + 1
+        left -= failures_before_success(scale[members], stream) + 1
         if left < 0:
             return n, members, own
-        if n + members > tape.first.size:
+        if n + members > tape.first.size or min(2 * members, n_particles) >= scale.size:
             return -1, members, own
+        lead, pairs = first_touched(members, n_particles, mean_pairs, touch, alone, stream)
         before = n
-        n, members = reveal(tape, n, root, members, n_particles, mean_pairs, taken, stream)
+        n, members = reveal(tape, n, root, members, n_particles, lead, pairs, taken, stream)
         for event in range(before, n):
             own += int64(tape.first[event] == root) + int64(tape.second[event] == root)
 

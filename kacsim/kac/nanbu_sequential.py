@@ -48,28 +48,24 @@ def forward(velocities, own, n_particles, steps, probability, stream):
 
 
 @inlined
-def place_of(label, labels, members):
-    """Return the first place in the descending labels whose label is at most the given one."""
-    place = 0
-    while place < members and labels[place] > label:
-        place += 1
-    return place
-
-
-@inlined
-def insert(array, place, length, value):
-    """Insert the value at the place of an array that holds `length` values."""
-    for k in range(length, place, -1):
-        array[k] = array[k - 1]
-    array[place] = value
+def seat(label, slot, labels, slots, members):
+    """Return (place, members): where the label is among the descending ones, inserted if new."""
+    place = members
+    while place > 0 and labels[place - 1] < label:
+        labels[place], slots[place] = labels[place - 1], slots[place - 1]
+        place -= 1
+    if place == 0 or labels[place - 1] != label:
+        labels[place], slots[place] = label, slot
+        return place, members + 1
+    for k in range(place, members):
+        labels[k], slots[k] = labels[k + 1], slots[k + 1]
+    return place - 1, members
 
 
 @allocating
-def prepare(arguments):
-    """Return the scale of the gaps between collisions, and room for labels and slots."""
-    n_particles, _, probability = arguments
-    labels, slots = np.empty(n_particles, np.int64), np.empty(n_particles, np.int64)
-    return gap_scale(probability), labels, slots
+def prepare(arguments, most):
+    """Return the scale of the gaps between collisions, and `most` labels and slots."""
+    return gap_scale(arguments[2]), np.empty(most, np.int64), np.empty(most, np.int64)
 
 
 @inlined
@@ -89,17 +85,14 @@ def history(arguments, prepared, tape, start, root, stream):
             place = 0
             if left <= 0:
                 return n, members, own
-        if n == tape.first.size:
+        if n == tape.first.size or members == labels.size:
             return -1, members, own
         place += gap
         i, slot = labels[place], slots[place]
         j = partner_of(i, n_particles, stream)
-        found = place_of(j, labels, members)
-        if found == members or labels[found] != j:
-            insert(labels, found, members, j)
-            insert(slots, found, members, root + members)
-            members += 1
-            place += int64(found <= place)
+        before = members
+        found, members = seat(j, root + members, labels, slots, members)
+        place += int64(members > before and found <= place)
         tape.first[n], tape.second[n] = slot, slots[found]
         own += int64(i == 0)
         n += 1

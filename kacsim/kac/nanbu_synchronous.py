@@ -7,8 +7,8 @@ from kacsim.kac.model import deflect, initial_velocity
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
 from kacsim.kac.tape import ancestral_draws
-from kacsim.kernels.jit import allocating, inlined, kernel
-from kacsim.variates import failures_before_success, gap_scale, uniform
+from kacsim.kernels.jit import inlined, kernel
+from kacsim.variates import failures_before_success, gap_scale
 
 __all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
 
@@ -47,8 +47,8 @@ def forward(velocities, own, n_particles, steps, probability, stream):
     return simulated
 
 
-@allocating
-def prepare(arguments):
+@inlined
+def prepare(arguments, most):
     """Return the scale of the gaps between collisions."""
     return gap_scale(arguments[2])
 
@@ -72,10 +72,9 @@ def history(arguments, scale, tape, start, root, stream):
         if n == tape.first.size:
             return -1, members, own
         place += gap
-        j = members
-        if uniform(stream) * (n_particles - 1) < members - 1:
-            j = partner_of(place, members, stream)
-        else:
+        j = partner_of(place, n_particles, stream)
+        if j >= members:
+            j = members
             members += 1
         tape.first[n], tape.second[n] = root + place, root + j
         tape.mark[n] = left
@@ -87,7 +86,7 @@ def history(arguments, scale, tape, start, root, stream):
 
 @inlined
 def replay_steps(tape, n_events):
-    """Replay collisions that change the first particle of the pair only, each step at its old level.
+    """Replay collisions that change the first of the pair only, each step at its old level.
 
     Two draws' collisions share no slot, so that it does no harm if a step runs into another draw's.
     """

@@ -15,17 +15,23 @@ from kacsim.kac.model import collide, initial_velocity
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
-from kacsim.variates import exponential, index_below, pair_below, two_below, uniform
+from kacsim.variates import exponential, index_below, pair_below, two_below
+
+# Two of at most 1000 ancestors among so many meet in less than one collision of 1e15.
+INFINITELY_MANY = 2**61
+
+# Two of the ancestors among so many meet in less than one collision of 1e15.
+INFINITELY_MANY = 2**61
 
 
 def arguments(*, n_particles, time, collision_rate):
     """Return the kernels' parameters: particles, mean collisions of particle 1, rate of a pair.
 
-    Infinitely many particles are passed as 0. The pair's rate is that of two particles other
-    than particle 1, in units of the collision rate; two particles leave no such pair.
+    The pair's rate is that of two particles other than particle 1, in units of the collision rate;
+    two particles leave no such pair.
     """
     if math.isinf(n_particles):
-        return 0, collision_rate * time, 0.0
+        return INFINITELY_MANY, collision_rate * time, 0.0
     pair_rate = 0.0 if n_particles == 2 else 1.0 / (n_particles - 1)
     return n_particles, collision_rate * time, pair_rate
 
@@ -84,59 +90,42 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
     return simulated
 
 
-@inlined
-def others_rate(others, reach, pair_rate):
-    """Return the rate of collisions that touch one of the ancestors other than particle 1."""
-    return others * (reach - 0.5 * pair_rate * (others + 1))
-
-
 @allocating
-def prepare(arguments):
-    """Return (1 / (N - 1), pair rate times N - 1, mean pauses for 0..255 ancestors beside particle 1).
+def prepare(arguments, most):
+    """Return the mean time between collisions that touch one of s ancestors, s < `most`.
 
-    Infinitely many particles (0) have 0 and 1.
+    s of N particles are touched by s (N - s) + s (s - 1) / 2 pairs, each at the rate 1 / (N - 1).
     """
-    n_particles, _, pair_rate = arguments
-    inverse, reach = 0.0, 1.0
-    if n_particles > 0:
-        inverse, reach = 1.0 / (n_particles - 1), pair_rate * (n_particles - 1)
-    pauses = np.empty(256)
-    for others in range(pauses.size):
-        pauses[others] = 1.0 / (1.0 + others_rate(others, reach, pair_rate))
-    return inverse, reach, pauses
+    size = float(arguments[0])
+    pauses = np.empty(most)
+    for s in range(most):
+        pauses[s] = 2.0 * (size - 1.0) / (s * (2.0 * size - s - 1.0))
+    return pauses
 
 
 @inlined
-def history(arguments, prepared, tape, start, root, stream):
+def history(arguments, pauses, tape, start, root, stream):
     """Find the collisions of one draw, from one to the one before it through exponential pauses.
 
-    Infinitely many particles (0) give McKean's tree: exact draws of the Kac equation.
+    `INFINITELY_MANY` particles give McKean's tree: exact draws of the Kac equation.
     """
-    (_, left, pair_rate), (inverse, reach, pauses) = arguments, prepared
-    n, others, own = start, 0, 0
+    n_particles, left, _ = arguments
+    n, members, own = start, 1, 0
     while True:
-        # Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
-        rest = others_rate(others, reach, pair_rate)
-        pause = pauses[others] if others < pauses.size else 1.0 / (1.0 + rest)
-        left -= exponential(stream) * pause
+        left -= exponential(stream) * pauses[members]
         if left < 0.0:
-            return n, others + 1, own
-        if n == tape.first.size:
-            return -1, others + 1, own
-        place = uniform(stream) * (1.0 + rest)
-        if place < 1.0:
-            i = 0
-            own += 1
-            inner = place < others * inverse
-            j = 1 + int64(place / inverse) if inner else 0
+            return n, members, own
+        if n == tape.first.size or members == pauses.size:
+            return -1, members, own
+        # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.
+        i, j = two_below(members, 2 * n_particles - members - 1, stream)
+        if j < members - 1:
+            j += int64(j >= i)
         else:
-            inner = place - 1.0 < 0.5 * pair_rate * others * (others - 1)
-            i, j = two_below(others, max(1, others - 1), stream)
-            i, j = 1 + i, 1 + j + int64(j >= i)
-        if not inner:
-            others += 1
-            j = others
+            j = members
+            members += 1
         tape.first[n], tape.second[n] = root + i, root + j
+        own += int64(i == 0) + int64(j == 0)
         n += 1
 
 

@@ -5,10 +5,14 @@ rate, i.e. 1/(N - 2) for each of their pairs: not Kac's process.
 """
 
 import numpy as np
+from numba import int64
 from scipy import linalg
 
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
-from kacsim.kac.poisson import ancestral, forward
+from kacsim.kac.poisson import forward
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined
+from kacsim.variates import exponential, two_below, uniform
 
 __all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
 
@@ -17,6 +21,49 @@ def arguments(*, n_particles, time, collision_rate):
     """Return the kernels' parameters, as `kacsim.kac.poisson.arguments`."""
     pair_rate = 0.0 if n_particles == 2 else 1.0 / (n_particles - 2)
     return n_particles, collision_rate * time, pair_rate
+
+
+@allocating
+def prepare(arguments, most):
+    """Return the rate of collisions that touch one of s ancestors beside particle 1, s < `most`."""
+    n_particles, _, pair_rate = arguments
+    rates = np.empty(most)
+    for s in range(most):
+        rates[s] = 0.5 * pair_rate * s * (2.0 * (n_particles - 1.0) - s - 1.0)
+    return rates
+
+
+@inlined
+def history(arguments, rates, tape, start, root, stream):
+    """Find the collisions of one draw, from one to the one before it through exponential pauses.
+
+    Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
+    """
+    n_particles, left, _ = arguments
+    n, others, own = start, 0, 0
+    while True:
+        rate = 1.0 + rates[others]
+        left -= exponential(stream) / rate
+        if left < 0.0:
+            return n, others + 1, own
+        if n == tape.first.size or others + 1 == rates.size:
+            return -1, others + 1, own
+        # N - 1 partners for particle 1; for others as in `kacsim.kac.poisson`, N less by one.
+        alone = uniform(stream) * rate < 1.0
+        ways = n_particles - 1 if alone else 2 * (n_particles - 1) - others - 1
+        i, j = two_below(1 if alone else others, ways, stream)
+        if j < others - int64(not alone):
+            j += int64(j >= i and not alone)
+        else:
+            j = others
+            others += 1
+        i = 0 if alone else 1 + i
+        tape.first[n], tape.second[n] = root + i, root + 1 + j
+        own += int64(alone)
+        n += 1
+
+
+ancestral = ancestral_draws(prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate, pair_rate=None):

@@ -13,10 +13,12 @@ import numpy as np
 
 from kacsim.kac.model import signed_root
 from kacsim.kernels.jit import inlined, kernel
+from kacsim.streams import BLOCK
 from kacsim.variates import maxwell_energies, squared_cosines
 
 LEAST = 4096
 MOST_DRAWS = 512
+EVENTS = 16  # on the tape for each ancestor of one draw
 
 
 class Tape(NamedTuple):
@@ -24,27 +26,30 @@ class Tape(NamedTuple):
 
     Attributes
     ----------
-    first, second, mark : int64[capacity], slots of each collision's pair, the latest collision of a
-        draw first; and what else an algorithm notes of it
-    part, new : float64[capacity], cos(theta)**2 of each collision; workspace
+    first, second : uint64[capacity], slots of the colliding pair, a draw's latest collision first
+    mark : int64[capacity], what else an algorithm notes of it
+    part : float64[capacity], cos(theta)**2 of each collision
     energy : float64[capacity + MOST_DRAWS], of the ancestor in each slot
-    root : int64[MOST_DRAWS], slot of particle 1 of each draw
+    root : uint64[MOST_DRAWS], slot of particle 1 of each draw
+    new, missed : float64[capacity], uint64[BLOCK], workspace
     """
 
     first: object
     second: object
     mark: object
     part: object
-    new: object
     energy: object
     root: object
+    new: object
+    missed: object
 
 
 def new_tape(capacity):
     """Return an empty tape."""
-    whole = [np.empty(capacity, np.int64) for _ in range(3)]
-    real = [np.empty(capacity), np.empty(capacity), np.empty(capacity + MOST_DRAWS)]
-    return Tape(*whole, *real, np.empty(MOST_DRAWS, np.int64))
+    slots = np.empty((2, capacity), np.uint64)
+    mark, real = np.empty(capacity, np.int64), np.empty((2, capacity))
+    energy, root = np.empty(capacity + MOST_DRAWS), np.empty(MOST_DRAWS, np.uint64)
+    return Tape(*slots, mark, real[0], energy, root, real[1], np.empty(BLOCK, np.uint64))
 
 
 @inlined
@@ -66,11 +71,12 @@ def ancestral_draws(prepare, history, replay=share):
 
     Parameters
     ----------
-    prepare : kernel (arguments) -> what all histories of one call share
+    prepare : kernel (arguments, most) -> what all histories of one call share, for fewer than
+        `most` ancestors
     history : kernel (arguments, prepared, tape, start, root, stream) -> (events, ancestors, own).
         Writes one draw's collisions on the tape from place `start` on, its ancestors having the
-        slots from `root` on; `events` is the place after them, or -1 if they do not fit, `own` the
-        number of collisions of particle 1.
+        slots from `root` on; `events` is the place after them, or -1 if they, or
+        so many ancestors, do not fit, `own` the number of collisions of particle 1.
     replay : kernel (tape, n_events), turns energies at time 0 into those at time t
 
     Returns
@@ -80,7 +86,7 @@ def ancestral_draws(prepare, history, replay=share):
 
     @inlined
     def play(tape, velocities, n_events, n_slots, stream):
-        maxwell_energies(tape.energy, n_slots, stream)
+        maxwell_energies(tape.energy, tape.missed, n_slots, stream)
         squared_cosines(tape.part, n_events, stream)
         replay(tape, n_events)
         for draw in range(velocities.size):
@@ -89,7 +95,7 @@ def ancestral_draws(prepare, history, replay=share):
     @kernel
     def attempt(velocities, own, arguments, stream, tape):
         """Draw until a history does not fit on the tape; return (draws, collisions simulated)."""
-        prepared = prepare(arguments)
+        prepared = prepare(arguments, tape.first.size // EVENTS)
         before = stream.copy()
         draw, simulated = 0, 0
         while draw < velocities.size:

@@ -13,7 +13,7 @@ def kernel(function):
     return cache.cached(numba.njit(error_model=ERROR_MODEL)(function))
 
 
-# Called from kernels. It borrows the arrays that it is given: no reference is counted, which takes an
+# Called from kernels. It borrows the arrays that it is given: counting a reference would take an
 # atomic addition each time. So it can neither make nor return an array.
 inlined = numba.njit(forceinline=True, _nrt=False, error_model=ERROR_MODEL)
 

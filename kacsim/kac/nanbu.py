@@ -8,7 +8,7 @@ Particles that do not collide are skipped: over the N * steps trials in order, t
 collisions are geometric, which is the law of independent trials.
 """
 
-from numba import int64
+from numba import int64, uint64
 
 from kacsim.kac.constants import n_steps
 from kacsim.kernels.jit import inlined
@@ -30,5 +30,5 @@ def partner_of(i, n_particles, stream):
 @inlined
 def leave_step(left, gap, members):
     """Return (steps left, gap) after the end of a step and the whole steps that the gap spans."""
-    whole = int64(gap / members)  # exact below 2**52, and faster than a division of integers
+    whole = int64(uint64(gap) // uint64(members))
     return left - 1 - whole, gap - whole * members

@@ -67,7 +67,6 @@ def prepare(arguments, most):
     scale : float64[n], `gap_scale` of the chance that a step touches one of s ancestors, s < n
     touch : float64[2, n], chances that it does with the lesser and with the greater number of
         pairs, times that number's chance
-    alone : float64[2, n], chances that it does not, given the number
     taken : bool[n], all False: ancestors paired as a partner in a step
 
     n is `most`, or all particles and one.
@@ -76,31 +75,27 @@ def prepare(arguments, most):
     whole = int64(mean_pairs)
     chances = 1.0 - (mean_pairs - whole), mean_pairs - whole
     size = min(n_particles + 1, most)
-    scale, touch, alone = np.empty(size), np.empty((2, size)), np.ones((2, size))
+    scale, touch = np.empty(size), np.empty((2, size))
+    few, more = 1.0, 1.0
     for s in range(size):
-        for more in range(2):
-            if s > 0:
-                pairs, others = whole + more, n_particles - (s - 1)
-                alone[more, s] = alone[more, s - 1] * max(0.0, 1.0 - 2.0 * pairs / others)
-            touch[more, s] = chances[more] * (1.0 - alone[more, s])
+        touch[0, s], touch[1, s] = chances[0] * (1.0 - few), chances[1] * (1.0 - more)
         scale[s] = gap_scale(touch[0, s] + touch[1, s])
-    return scale, touch, alone, np.zeros(size, np.bool_)
+        # The next one's chance to be alone, if those before are.
+        few *= max(0.0, 1.0 - 2.0 * whole / (n_particles - s))
+        more *= max(0.0, 1.0 - 2.0 * (whole + 1) / (n_particles - s))
+    return scale, touch, np.zeros(size, np.bool_)
 
 
 @inlined
-def first_touched(members, n_particles, mean_pairs, touch, alone, stream):
-    """Return (lowest ancestor touched, pairs) of a step that touches at least one."""
+def first_touched(members, touch, stream):
+    """Return (lowest ancestor touched, 1 if the step has the greater number of pairs else 0)."""
     place = uniform(stream) * (touch[0, members] + touch[1, members])
     more = int64(place >= touch[0, members])
-    whole = int64(mean_pairs)
-    if more:
-        place = (place - touch[0, members]) / (mean_pairs - whole)
-    else:
-        place /= 1.0 - (mean_pairs - whole)
+    place -= more * touch[0, members]
     lead = 0
-    while lead < members - 1 and 1.0 - alone[more, lead + 1] <= place:
+    while lead < members - 1 and touch[more, lead + 1] <= place:
         lead += 1
-    return lead, whole + more
+    return lead, more
 
 
 @inlined
@@ -118,19 +113,20 @@ def reveal(tape, n, root, members, n_particles, lead, pairs, taken, stream):
     (int, int), the numbers of pairs recorded and of ancestors
     """
     known, unseen, free = members, n_particles - lead, members - lead
-    # By inversion: the members up to the next one touched are left alone with a chance below it.
-    alone, target = 0.0, 0.0
+    # By inversion: the next member touched is the first whose `alone` is not above `target`.
+    alone, target, paired = 0.0, 0.0, False
     for i in range(lead, known):
         if taken[i]:
             continue
         # `unseen` particles, `free` of them members from i on, hold the remaining pairs.
         alone *= 1.0 - 2.0 * pairs / unseen
         if alone <= target:
-            rank = index_below(unseen - 1, stream)
-            if rank < free - 1:
-                j = untaken(i, rank, taken)
+            j = index_below(unseen - 1, stream)
+            if j < free - 1:
+                j = untaken(i, j, taken)
                 taken[j] = True
                 free -= 1
+                paired = True
             else:
                 j = members
                 members += 1
@@ -139,9 +135,13 @@ def reveal(tape, n, root, members, n_particles, lead, pairs, taken, stream):
             pairs -= 1
             unseen -= 1
             alone, target = 1.0, uniform(stream)
+            # Most often a bound of the chance that no other one is touched is enough.
+            if target < 1.0 - 2.0 * pairs * (free - 1) / (unseen - free):
+                break
         unseen -= 1
         free -= 1
-    taken[:known] = False
+    if paired:
+        taken[:known] = False
     return n, members
 
 
@@ -162,7 +162,7 @@ def history(arguments, prepared, tape, start, root, stream):
     Steps whose pairs leave all ancestors alone are skipped geometrically; in the others the
     ancestors' partners are revealed one after another.
     """
-    (n_particles, left, mean_pairs), (scale, touch, alone, taken) = arguments, prepared
+    (n_particles, left, mean_pairs), (scale, touch, taken) = arguments, prepared
     n, members, own = start, 1, 0
     while True:
         left -= failures_before_success(scale[members], stream) + 1
@@ -170,11 +170,10 @@ def history(arguments, prepared, tape, start, root, stream):
             return n, members, own
         if n + members > tape.first.size or min(2 * members, n_particles) >= scale.size:
             return -1, members, own
-        lead, pairs = first_touched(members, n_particles, mean_pairs, touch, alone, stream)
-        before = n
+        lead, more = first_touched(members, touch, stream)
+        pairs = int64(mean_pairs) + more
         n, members = reveal(tape, n, root, members, n_particles, lead, pairs, taken, stream)
-        for event in range(before, n):
-            own += int64(tape.first[event] == root) + int64(tape.second[event] == root)
+        own += int64(lead == 0)
 
 
 ancestral = ancestral_draws(prepare, history)

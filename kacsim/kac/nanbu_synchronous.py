@@ -92,14 +92,15 @@ def replay_steps(tape, n_events):
     """
     last = n_events - 1
     while last >= 0:
-        event = last
-        while event >= 0 and tape.mark[event] == tape.mark[last]:
+        first = last
+        while first > 0 and tape.mark[first - 1] == tape.mark[last]:
+            first -= 1
+        for event in range(first, last + 1):
             total = tape.energy[tape.first[event]] + tape.energy[tape.second[event]]
             tape.new[event] = total * tape.part[event]
-            event -= 1
-        for k in range(event + 1, last + 1):
-            tape.energy[tape.first[k]] = tape.new[k]
-        last = event
+        for event in range(first, last + 1):
+            tape.energy[tape.first[event]] = tape.new[event]
+        last = first - 1
 
 
 ancestral = ancestral_draws(prepare, history, replay_steps)

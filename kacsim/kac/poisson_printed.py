@@ -25,31 +25,30 @@ def arguments(*, n_particles, time, collision_rate):
 
 @allocating
 def prepare(arguments, most):
-    """Return the rate of collisions that touch one of s ancestors beside particle 1, s < `most`."""
+    """Return the mean time between collisions that touch particle 1 or one of s others, s < `most`.
+
+    Rates: 1 for particle 1, then every pair that touches one of the others.
+    """
     n_particles, _, pair_rate = arguments
-    rates = np.empty(most)
+    pauses = np.empty(most)
     for s in range(most):
-        rates[s] = 0.5 * pair_rate * s * (2.0 * (n_particles - 1.0) - s - 1.0)
-    return rates
+        pauses[s] = 1.0 / (1.0 + 0.5 * pair_rate * s * (2.0 * (n_particles - 1.0) - s - 1.0))
+    return pauses
 
 
 @inlined
-def history(arguments, rates, tape, start, root, stream):
-    """Find the collisions of one draw, from one to the one before it through exponential pauses.
-
-    Rates: 1 for particle 1, then every pair that touches one of the other ancestors.
-    """
+def history(arguments, pauses, tape, start, root, stream):
+    """Find the collisions of one draw, from one to the one before it through exponential pauses."""
     n_particles, left, _ = arguments
     n, others, own = start, 0, 0
     while True:
-        rate = 1.0 + rates[others]
-        left -= exponential(stream) / rate
+        left -= exponential(stream) * pauses[others]
         if left < 0.0:
             return n, others + 1, own
-        if n == tape.first.size or others + 1 == rates.size:
+        if n == tape.first.size or others + 1 == pauses.size:
             return -1, others + 1, own
         # N - 1 partners for particle 1; for others as in `kacsim.kac.poisson`, N less by one.
-        alone = uniform(stream) * rate < 1.0
+        alone = uniform(stream) < pauses[others]
         ways = n_particles - 1 if alone else 2 * (n_particles - 1) - others - 1
         i, j = two_below(1 if alone else others, ways, stream)
         if j < others - int64(not alone):

@@ -95,12 +95,21 @@ def replay_steps(tape, n_events):
         first = last
         while first > 0 and tape.mark[first - 1] == tape.mark[last]:
             first -= 1
-        for event in range(first, last + 1):
-            total = tape.energy[tape.first[event]] + tape.energy[tape.second[event]]
-            tape.new[event] = total * tape.part[event]
-        for event in range(first, last + 1):
-            tape.energy[tape.first[event]] = tape.new[event]
+        if first == last:
+            tape.energy[tape.first[last]] = after(tape, last)
+        else:
+            for event in range(first, last + 1):
+                tape.new[event] = after(tape, event)
+            for event in range(first, last + 1):
+                tape.energy[tape.first[event]] = tape.new[event]
         last = first - 1
+
+
+@inlined
+def after(tape, event):
+    """Return the energy of the first particle of the pair after a collision."""
+    total = tape.energy[tape.first[event]] + tape.energy[tape.second[event]]
+    return total * tape.part[event]
 
 
 ancestral = ancestral_draws(prepare, history, replay_steps)

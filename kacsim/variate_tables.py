@@ -5,7 +5,7 @@ from decimal import Decimal
 
 import numpy as np
 
-from kacsim.elementary.decimals import precise
+from kacsim.elementary.decimals import cosines, precise
 
 LAYERS = 256
 UNIT = 2.0**-53
@@ -89,8 +89,6 @@ SPEED_SURE = np.append(SPEED_LEAST[:-1] / SPEED_LARGEST[:-1] * 2.0**53, 0.0).ast
 SPEED_SCALE = SPEED_WIDTH / np.maximum(SPEED_SURE, 1)
 SPEED_TAIL = float(SPEED_EDGE[-1])
 
-# Cosine and sine of fixed points on the circle, one after another.
-POINTS = 1024
-COS_SIN = np.array(
-    [(np.cos(2 * np.pi * k / 1024), np.sin(2 * np.pi * k / 1024)) for k in range(1024)]
-).ravel()
+POINTS = 1024  # on the circle, at the multiples of an angle from 0 on
+COS = np.array(cosines(POINTS), dtype=float)
+COS_SIN = np.stack([COS, np.roll(COS, POINTS // 4)], axis=1).ravel()

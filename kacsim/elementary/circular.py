@@ -4,12 +4,10 @@ An angle is theta + d, theta the nearest of 256 on the circle; next to the axes,
 two is small, theta is on the axis.
 """
 
-from decimal import Decimal
-
 import numpy as np
 
 from kacsim.elementary.bits import ROUNDER, bits_of
-from kacsim.elementary.decimals import PI, cosine, cut, precise, rounded
+from kacsim.elementary.decimals import PI, cosines, cut, precise, rounded
 from kacsim.kernels.jit import inlined
 
 PARTS = 256  # of the circle
@@ -24,15 +22,13 @@ def _tables():
     2**19 times each of the first two parts is exact.
     """
     step, turned = 2 * PI / PARTS, PARTS // 4
-    quarter = [*(cosine(step * k) for k in range(turned)), Decimal(0)]
-    half = quarter + [-value for value in quarter[-2::-1]]
-    high, low = map(np.array, rounded(half + half[-2:0:-1]))
+    high, low = map(np.array, rounded(cosines(PARTS)))
     # sin(theta) = cos(theta - pi / 2)
     circle = np.stack([high, np.roll(high, turned), low, np.roll(low, turned)], axis=1)
     return (*cut(step, 2.0**-39, 2.0**-73), float(1 / step), circle)
 
 
-_STEP_1, _STEP_2, _STEP_3, _STEPS, CIRCLE = _tables()
+_STEP_1, _STEP_2, _STEP_3, _STEPS, _CIRCLE = _tables()
 
 
 @inlined
@@ -48,7 +44,7 @@ def cos_sin(x):
     elif beside == 2:
         many, k = many - 1.0, k - np.int64(1)
     k &= np.int64(PARTS - 1)
-    cos, sin, cos_low, sin_low = CIRCLE[k, 0], CIRCLE[k, 1], CIRCLE[k, 2], CIRCLE[k, 3]
+    cos, sin, cos_low, sin_low = _CIRCLE[k, 0], _CIRCLE[k, 1], _CIRCLE[k, 2], _CIRCLE[k, 3]
     # d and what it lacks
     rest, second = x - many * _STEP_1, many * _STEP_2
     d = rest - second

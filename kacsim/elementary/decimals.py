@@ -64,3 +64,17 @@ def _pi():
 
 PI = _pi()
 LN2 = precise(Decimal.ln)(Decimal(2))
+
+
+@precise
+def cosines(parts):
+    """Return the cosines of the multiples of 2 pi / parts, from 0 on; parts is a multiple of 4."""
+    one, step = Decimal(1), 2 * PI / parts
+    first, second = cosine(step), cosine(PI / 2 - step)
+    quarter, other = [one], Decimal(0)
+    while len(quarter) < parts // 4:
+        this = quarter[-1]
+        quarter.append(this * first - other * second)
+        other = other * first + this * second
+    half = [*quarter, Decimal(0), *(-value for value in quarter[::-1])]
+    return half + half[-2:0:-1]

@@ -100,7 +100,9 @@ def farthest_pair(images, roots, centre, radii, gaps, goal, pair):
         return last
     for i in range(n):
         for k in range(n):
-            roots[k, i] = math.sqrt(images[i, k])
+            gaps[k] = math.sqrt(images[i, k])
+        for k in range(n):
+            roots[k, i] = gaps[k]
     for k in range(n):
         centre[k] = roots[k].sum() / n
     squared_gaps(roots, centre, radii)

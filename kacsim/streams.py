@@ -1,8 +1,9 @@
 """Independent random streams: the only place that makes one.
 
-The generator is xoshiro256++ 1.0 (Blackman and Vigna, ACM Trans. Math. Softw. 47, 2021), inlined
-into the kernels; its 256 bits of state come from numpy's ``SeedSequence``. A stream belongs to a
-(seed, name, replicate): results do not depend on the number of jobs or on their order.
+The generator is xoshiro256++ 1.0 (Blackman and Vigna, ACM Trans. Math. Softw. 47, 2021) in eight
+lanes: independent states from numpy's ``SeedSequence``, whose words are handed out in turn. Lanes
+advance side by side in vector registers, a block of words at a time. A stream belongs to a (seed,
+name, replicate): results do not depend on the number of jobs or on their order.
 """
 
 import hashlib
@@ -13,17 +14,16 @@ from numba import int64, uint64
 from kacsim.kernels.jit import apart, inlined
 from kacsim.kernels.lanes import LANES, fill
 
-# A stream is one array: the lanes' states, the place of the next word, words.
+BLOCK = 256  # words made at a time
 PLACE = 4 * LANES
 FIRST = PLACE + LANES
-BLOCK = 256  # words made at a time
 END = FIRST + BLOCK
 
 CHUNK = 8192  # draws of one call of a kernel, which are then summed
 
 
 def new_stream(seed, name="", replicate=0):
-    """Return the state of one stream.
+    """Return a new stream.
 
     Parameters
     ----------
@@ -33,7 +33,8 @@ def new_stream(seed, name="", replicate=0):
 
     Returns
     -------
-    uint64[4], advanced in place by the functions of `kacsim.variates`
+    uint64[END], advanced in place by the functions of `kacsim.variates`: the lanes' states, the
+    place of the next word, a block of words
     """
     words = np.frombuffer(hashlib.sha256(name.encode()).digest(), dtype="<u4")
     # The length first: SeedSequence pads with zeros, so two entropies could coincide without it.
@@ -66,7 +67,7 @@ def next_bits(stream):
 
 @inlined
 def next_block(n, stream):
-    """Return the stream's next words as a part of it, at least one and at most n."""
+    """Take the stream's next words, at least one and at most n; return their (start, stop)."""
     place = int64(stream[PLACE])
     if place == END:
         refill(stream)
@@ -76,7 +77,16 @@ def next_block(n, stream):
     return place, stop
 
 
+@inlined
+def same_state(stream, other):
+    """Return whether two copies of one stream have handed out equally many words."""
+    for k in range(PLACE + 1):
+        if stream[k] != other[k]:
+            return False
+    return True
+
+
 @apart
 def refill(stream):
-    """Put new words into the buffer."""
+    """Put a new block of words into the stream."""
     fill(stream, 0, FIRST, END)

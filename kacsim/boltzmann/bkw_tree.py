@@ -17,7 +17,7 @@ def estimate(values, nodes, speed, time, oversampling, onset, max_nodes, stream)
     oversampling : m >= 1; 1 is the published algorithm
     onset : time from which on collisions are oversampled
     max_nodes : int, budget of one realization
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -55,7 +55,7 @@ def probe(x, y, z, time, equilibrium, nodes, stream):
     x, y, z, time : velocity in c_q and t in mean collision times
     equilibrium : bool, start from eq. (11) in place of eq. (18)
     nodes : int64[1], raised by the number of t' drawings
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
     """
     nodes[0] += 1
     time -= exponential(stream)

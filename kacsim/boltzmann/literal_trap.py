@@ -75,7 +75,7 @@ def probe(point, time, coupling, breathing, relaxed, nodes, stream):
     coupling, breathing : n kappa omega**2 / c_eq**3 and eps
     relaxed : bool, start from the breathing state (Algorithm 5) in place of the BKW one
     nodes : int64[1], raised by the number of calls
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
     """
     nodes[0] += 1
     densest = maxwellian(0.0, math.sqrt(1.0 - breathing))

@@ -21,7 +21,7 @@ def estimate(values, nodes, time, ratio, max_nodes, stream):
     time : alpha f0 t
     ratio : majorant / (alpha f0)
     max_nodes : int, budget of one realization
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -191,7 +191,7 @@ def estimate(values, nodes, radius, radial, tangential, time, physics, choices, 
     physics : (coupling, breathing, start_phase, start), start 1.0 for BKW, 0.0 for breathing
     choices : (majorant / (kappa eta), spread, anisotropy); (`trap.MAJORANT`, 1, 0) in the text
     max_nodes : int, budget of t' drawings of one realization, inner null collisions included
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

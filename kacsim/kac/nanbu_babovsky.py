@@ -29,7 +29,7 @@ def forward(velocities, own, n_particles, steps, mean_pairs, stream):
     velocities : float64[n], overwritten by independent draws of v_1
     own : int64[n], overwritten by the number of collisions of particle 1
     n_particles, steps, mean_pairs : from `arguments`
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -22,7 +22,7 @@ def forward(velocities, own, n_particles, steps, probability, stream):
     velocities : float64[n], overwritten by independent draws of v_1
     own : int64[n], overwritten by the number of velocity changes of particle 1
     n_particles, steps, probability : from `arguments`
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -132,7 +132,7 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
     coupling_times : int64[n], overwritten by the first number of steps n with D < tolerance
     n_particles : int >= 2
     energy, tolerance : float > 0, the sphere's sum of v**2 and the distance epsilon
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -16,7 +16,7 @@ def estimate(values, nodes, speed, time, oversampling, onset, max_nodes, stream)
     speed, time : |v| / sqrt(3/2) and rate * t
     oversampling, onset : m >= 1, and the time from which on it is used
     max_nodes : int, budget of one realization
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -195,7 +195,7 @@ def stopping_times(times, n_particles, pairs, shares, tolerance, stream):
     n_particles : int >= 2
     pairs, shares : int, codes of how pairs and angles are drawn
     tolerance : float64[k] below 1, falling, in units of the sphere's radius
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

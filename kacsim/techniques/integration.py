@@ -54,7 +54,7 @@ def count_good(inside, n_points, dimension, stream):
     inside : int64[n], overwritten by the counts after n_points[k] points
     n_points : int64[n], growing
     dimension : int
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
     """
     done, hits = 0, 0
     for place in range(n_points.size):
@@ -120,7 +120,7 @@ def sum_area(sums, n_points, exponent, stream):
     sums : float64[2, n], overwritten: points below the curve, and sum of the curve's height, of the
         first n_points[k] points
     n_points : int64[n], growing
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
     """
     done, below, heights = 0, 0, 0.0
     for place in range(n_points.size):
@@ -134,16 +134,16 @@ def sum_area(sums, n_points, exponent, stream):
         sums[1, place] = heights
 
 
-def count_sobol(inside, n_points, dimension, state):
+def count_sobol(inside, n_points, dimension, stream):
     """Do as `count_good` with a scrambled Sobol sequence.
 
     Parameters
     ----------
-    state : uint64[4] of `new_stream`, the seed of the scrambling
+    stream : from `new_stream`, the seed of the scrambling
     """
     from scipy.stats import qmc  # a second to import, which the other generators should not pay
 
-    engine = qmc.Sobol(dimension, scramble=True, rng=np.random.default_rng(state))
+    engine = qmc.Sobol(dimension, scramble=True, rng=np.random.default_rng(stream))
     done, hits = 0, 0
     for place, n in enumerate(n_points):
         while done < n:

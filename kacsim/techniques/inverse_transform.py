@@ -22,7 +22,7 @@ def through_table(values, table, stream):
     ----------
     values : float64[n], overwritten
     table : float64[N_t + 1], v at u = 0, 1/N_t, ..., 1
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -6,7 +6,7 @@ from kacsim.elementary.exponential import exp, exp_of_square, expm1
 from kacsim.elementary.gaussian import scaled_erfc
 from kacsim.elementary.logarithm import log1p
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.streams import next_bits
+from kacsim.streams import next_bits, same_state
 from kacsim.techniques.constants import EXPONENTIAL, KAC_INITIAL, RAMP
 
 TWO_OVER_ROOT_PI = 2.0 / math.sqrt(math.pi)
@@ -80,20 +80,15 @@ def fill_cells(values, law, counts, sums):
 
 @kernel
 def uniforms_between(before, after):
-    """Return the calls of the generator between two states of one stream.
+    """Return the words taken between two states of one stream.
 
     Parameters
     ----------
-    before : uint64[4], overwritten by `after`
-    after : uint64[4], a later state; the count takes as many steps
+    before : from `new_stream`, overwritten by `after`
+    after : a later state; the count takes as many steps
     """
     n = 0
-    while (
-        before[0] != after[0]
-        or before[1] != after[1]
-        or before[2] != after[2]
-        or before[3] != after[3]
-    ):
+    while not same_state(before, after):
         next_bits(before)
         n += 1
     return n

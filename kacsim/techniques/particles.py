@@ -16,7 +16,7 @@ def select(indices, index_range, stream):
     ----------
     indices : int64[n], overwritten
     index_range : float64[N + 1], r_k, never falling; particle k owns [r_k, r_(k+1))
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
     """
     start, width = index_range[0], index_range[-1] - index_range[0]
     for k in range(indices.size):

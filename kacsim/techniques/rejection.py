@@ -35,7 +35,7 @@ def draw(values, law, closer, low, width, top, stream):
     values : float64[n], overwritten by accepted values
     law : int, place in `LAWS`
     closer : bool, the envelope of `CLOSER_TOP` in place of the constant `top` on [low, low + width]
-    stream : uint64[4], advanced
+    stream : from `new_stream`, advanced
 
     Returns
     -------

@@ -79,11 +79,8 @@ def next_block(n, stream):
 
 @inlined
 def same_state(stream, other):
-    """Return whether two copies of one stream have handed out equally many words."""
-    for k in range(PLACE + 1):
-        if stream[k] != other[k]:
-            return False
-    return True
+    """Return whether copies of one stream have handed out equally many words (one lane tells)."""
+    return stream[0] == other[0] and stream[PLACE] == other[PLACE]
 
 
 @apart

@@ -78,6 +78,13 @@ def next_block(n, stream):
 
 
 @inlined
+def copy_state(stream, copy):
+    """Make an array of the same size a copy of a stream."""
+    for k in range(END):
+        copy[k] = stream[k]
+
+
+@inlined
 def same_state(stream, other):
     """Return whether copies of one stream have handed out equally many words (one lane tells)."""
     return stream[0] == other[0] and stream[PLACE] == other[PLACE]

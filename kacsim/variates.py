@@ -78,38 +78,54 @@ def random_sign(stream):
 @inlined
 def exponential(stream):
     """Return a standard exponential variate, strictly positive tail included."""
-    while True:
-        bits = next_bits(stream)
-        layer = int64(bits & uint64(255))
-        position = int64(bits >> uint64(11))
-        x = position * E_SCALE[layer]
-        if position < E_SURE[layer]:
-            return x
+    bits = next_bits(stream)
+    layer, position = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
+    if position < E_SURE[layer]:
+        return position * E_SCALE[layer]
+    return _exponential_beside(layer, position, stream)
+
+
+@apart
+def _exponential_beside(layer, position, stream):
+    """Return the variate for a position that is not surely under the density."""
+    while position >= E_SURE[layer]:
         if layer == 0:
             return E_TAIL - log(1.0 - uniform(stream))
-        step = E_HEIGHT[layer + 1] - E_HEIGHT[layer]
-        if E_HEIGHT[layer] + uniform(stream) * step < exp(-x):
+        x = position * E_SCALE[layer]
+        low, high = E_HEIGHT[layer], E_HEIGHT[layer + uint64(1)]
+        if low + uniform(stream) * (high - low) < exp(-x):
             return x
+        bits = next_bits(stream)
+        layer, position = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
+    return position * E_SCALE[layer]
 
 
 @inlined
 def half_normal(stream):
     """Return the absolute value of a standard normal variate."""
-    while True:
-        bits = next_bits(stream)
-        layer = int64(bits & uint64(255))
-        position = int64(bits >> uint64(11))
-        x = position * N_SCALE[layer]
-        if position < N_SURE[layer]:
-            return x
+    bits = next_bits(stream)
+    layer, position = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
+    if position < N_SURE[layer]:
+        return position * N_SCALE[layer]
+    return _half_normal_beside(layer, position, stream)
+
+
+@apart
+def _half_normal_beside(layer, position, stream):
+    """Return the variate for a position that is not surely under the density."""
+    while position >= N_SURE[layer]:
         if layer == 0:
             while True:
                 x = -log(1.0 - uniform(stream)) / N_TAIL
                 if -2.0 * log(1.0 - uniform(stream)) > x * x:
                     return N_TAIL + x
-        step = N_HEIGHT[layer + 1] - N_HEIGHT[layer]
-        if N_HEIGHT[layer] + uniform(stream) * step < exp(-0.5 * x * x):
+        x = position * N_SCALE[layer]
+        low, high = N_HEIGHT[layer], N_HEIGHT[layer + uint64(1)]
+        if low + uniform(stream) * (high - low) < exp(-0.5 * x * x):
             return x
+        bits = next_bits(stream)
+        layer, position = bits & uint64(LAYERS - 1), int64(bits >> uint64(11))
+    return position * N_SCALE[layer]
 
 
 @inlined

@@ -54,6 +54,14 @@ def apply_steps(images, first, second, part, start, stop):
 
 
 @inlined
+def copy_images(images, copy):
+    """Make an array of the same shape a copy of the images."""
+    for i in range(images.shape[0]):
+        for k in range(images.shape[1]):
+            copy[i, k] = images[i, k]
+
+
+@inlined
 def squared_gap(images, i, j):
     """Return the squared distance of two corner images, in units of the energy: O(N)."""
     total = 0.0
@@ -156,7 +164,7 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
             expected = 0.4 * log(spread / goal) / CONTRACTION_RATE if spread > goal else 0.0
             block = min(BLOCK, max(1 + n // 3, int(min(BLOCK, n * expected))))
             draw_steps(first, second, part, block, n, stream)
-            saved[:] = images
+            copy_images(images, saved)
             apply_steps(images, first, second, part, 0, block)
             steps += block
             applied += block
@@ -165,15 +173,15 @@ def couple(velocities, coupling_times, n_particles, energy, tolerance, stream):
         low, high = 0, block
         while high - low > 1:
             middle = (low + high) // 2
-            images[:] = saved
+            copy_images(saved, images)
             apply_steps(images, first, second, part, low, middle)
             applied += middle - low
             if farthest_pair(images, roots, centre, radii, gaps, goal, pair) < goal:
                 high = middle
             else:
                 low = middle
-                saved[:] = images
-        images[:] = saved
+                copy_images(images, saved)
+        copy_images(saved, images)
         apply_steps(images, first, second, part, low, high)
         total = 0.0
         for i in range(n):

@@ -13,7 +13,7 @@ import numpy as np
 
 from kacsim.kac.model import signed_root
 from kacsim.kernels.jit import inlined, kernel
-from kacsim.streams import BLOCK
+from kacsim.streams import BLOCK, copy_state
 from kacsim.variates import maxwell_energies, squared_cosines
 
 LEAST = 4096
@@ -99,7 +99,7 @@ def ancestral_draws(prepare, history, replay=share):
         before = stream.copy()
         draw, simulated = 0, 0
         while draw < velocities.size:
-            before[:] = stream
+            copy_state(stream, before)
             begun, events, root = draw, 0, 0
             last = min(draw + MOST_DRAWS, velocities.size)
             while draw < last and 2 * events <= tape.first.size:
@@ -108,7 +108,7 @@ def ancestral_draws(prepare, history, replay=share):
                     arguments, prepared, tape, events, root, stream
                 )
                 if events < 0:
-                    stream[:] = before
+                    copy_state(before, stream)
                     return begun, simulated
                 root += ancestors
                 draw += 1

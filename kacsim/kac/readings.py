@@ -210,7 +210,7 @@ def stopping_times(times, n_particles, pairs, shares, tolerance, stream):
         images[:] = 0.0
         for i in range(n):
             images[i, i] = 1.0
-        roots[:] = images
+        copy_images(images, roots)
         pair[:, 0], pair[:, 1], pair[:, 2], level[:] = 0, 1, 0, 0
         steps, squares = 0, set_reference(roots, reference, sums)
         while level.min() < tolerance.size:

@@ -19,6 +19,7 @@ from kacsim.kac.constants import (
     WALKS,
     WITH_FIRST,
 )
+from kacsim.kac.perfect import copy_images
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import index_below, pair_below, squared_cosine, uniform
 

@@ -1,7 +1,7 @@
 """Fig. 2 of the Kac paper: mean TVN of Nanbu's algorithm against k, step = 2 / 2**k."""
 
 from kacsim.items import _kac
-from kacsim.items._lazy import estimate, histogram, np, plotting, store, verdict, xr
+from kacsim.items._lazy import dealing, estimate, histogram, np, plotting, store, verdict, xr
 from kacsim.kac.samplers import TITLES
 
 REFERENCES = ("bird", "poisson")
@@ -10,8 +10,10 @@ DIMS = ("reading", "n_particles", "time_step")
 
 
 def _grid(settings):
+    # No published number has the synchronous reading.
+    many = settings["n_replicates"], settings["other_n_replicates"]
     return {
-        (r, n, s): _kac.velocity_case(settings, reading, n_particles, step)
+        (r, n, s): _kac.velocity_case(settings, reading, n_particles, step, n_replicates=many[r])
         for r, reading in enumerate(_kac.READINGS)
         for n, n_particles in enumerate(settings["n_particles"])
         for s, step in enumerate(settings["time_step"])
@@ -20,12 +22,7 @@ def _grid(settings):
 
 def _reference_grid(settings):
     return {
-        (a, n): _kac.velocity_case(
-            settings,
-            algorithm,
-            n_particles,
-            n_replicates=settings["line_n_replicates" if a + n == 0 else "reference_n_replicates"],
-        )
+        (a, n): _kac.velocity_case(settings, algorithm, n_particles)
         for a, algorithm in enumerate(REFERENCES)
         for n, n_particles in enumerate(settings["reference_n_particles"])
     }
@@ -44,14 +41,9 @@ def reduce(samples, settings):
         "time_step": settings["time_step"],
     }
     table = _kac.tvn_table(samples, _grid(settings), DIMS, coords, settings)
-    axes = {"algorithm": REFERENCES, "reference_n": settings["reference_n_particles"]}
-    grid = _reference_grid(settings)
-    reference = _kac.tvn_table(samples, grid, tuple(axes), axes, settings)
-    keep = ("tvn", "tvn_error", "tvn_spread")
-    reference = reference[[*keep]].rename({name: f"reference_{name}" for name in keep})
     widths, n = _kac.widths(settings), settings["n_draws"]
     described, dims = store.described, ("bin_width",)
-    return xr.merge([table, reference]).assign(
+    return xr.merge([table, _references(samples, settings)]).assign(
         normal_floor=described(
             [_normal_floor(width, n) for width in widths],
             dims,
@@ -65,6 +57,26 @@ def reduce(samples, settings):
     )
 
 
+def _references(samples, settings):
+    """Return the mean TVN of the algorithms without a step, of all ways to deal their draws."""
+    widths, grid = _kac.widths(settings), _reference_grid(settings)
+    numbers = settings["reference_n_particles"]
+    table = np.empty((2, len(REFERENCES), len(numbers), len(widths)))
+    for place, case in grid.items():
+        for w, width in enumerate(widths):
+            expected, _ = _kac.target(settings, width)
+            counts, _ = histogram.coarsen(samples[case.id]["counts"].values, width)
+            mean = dealing.mean_variation(counts, expected)
+            table[(slice(None), *place, w)] = mean.value, mean.standard_error
+    dims, described = ("algorithm", "reference_n", "bin_width"), store.described
+    variables = {
+        "reference_tvn": described(table[0], dims, "mean TVN, over all ways to deal the draws"),
+        "reference_tvn_error": described(table[1], dims, "its standard error"),
+    }
+    axes = {"algorithm": list(REFERENCES), "reference_n": numbers, "bin_width": widths}
+    return xr.Dataset(variables, coords=axes)
+
+
 def _normal_floor(bin_width, n_draws):
     from scipy.special import ndtr
 
@@ -76,9 +88,8 @@ def _normal_floor(bin_width, n_draws):
 def _reference(dataset, algorithm, n):
     """Return the mean TVN of an algorithm without a step; its replicates give its error."""
     here = dataset.isel(bin_width=0).sel(algorithm=algorithm, reference_n=n)
-    line = algorithm == REFERENCES[0] and n == dataset.reference_n[0]
-    many = dataset.attrs["settings"]["line_n_replicates" if line else "reference_n_replicates"]
-    return estimate.Mean(float(here.reference_tvn), float(here.reference_tvn_error), many - 1)
+    degrees = dataset.attrs["settings"]["n_replicates"] - 1
+    return estimate.Mean(float(here.reference_tvn), float(here.reference_tvn_error), degrees)
 
 
 def claims(dataset):

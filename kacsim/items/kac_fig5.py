@@ -95,7 +95,7 @@ def claims(dataset):
     evidence = (
         f"Mean of |v₁| − {above:g} given |v₁| > {above:g}, in fine bins. {_misses(dataset)} "
         "Thresholds share their draws, and each algorithm has as many intervals as thresholds: "
-        "one or two of them miss without a cause. The study with more draws decides."
+        "one or two of them miss without a cause."
     )
     return [verdict.Finding("kac_fig5_shape", tuple(parts), evidence)]
 

@@ -21,11 +21,13 @@ SERIES = ("bird", "poisson", "poisson_printed", "endless")
 
 
 def _grid(settings):
-    finite = {
-        name: _kac.velocity_case(settings, name, settings["n_particles"]) for name in SERIES[:3]
+    n, fewer = settings["n_particles"], {"n_replicates": settings["other_n_replicates"]}
+    above = {"keep_above": settings["tail_above"]}
+    compared = {name: _kac.velocity_case(settings, name, n, **above) for name in SERIES[:2]}
+    return compared | {
+        "poisson_printed": _kac.velocity_case(settings, "poisson_printed", n, **fewer),
+        "endless": _kac.velocity_case(settings, "poisson", math.inf, engine="ancestral", **fewer),
     }
-    endless = _kac.velocity_case(settings, "poisson", math.inf, engine="ancestral")
-    return finite | {"endless": endless}
 
 
 def cases(settings):
@@ -47,13 +49,18 @@ def reduce(samples, settings):
             for case in grid.values()
         ]
     )
-    n_draws = _kac.n_draws_of(grid["endless"])
-    intervals = np.array([[tail.clopper_pearson(c, n_draws) for c in row] for row in counts])
+    n_draws = np.array([_kac.n_draws_of(case) for case in grid.values()])
+    intervals = np.array(
+        [
+            [tail.clopper_pearson(c, n) for c in row]
+            for n, row in zip(n_draws, counts, strict=True)
+        ]
+    )
     described, dims = store.described, ("series", "threshold")
     return xr.Dataset(
         {
             "count": described(counts, dims, "draws with |v_1| > x"),
-            "share": described(counts / n_draws, dims, "share of draws with |v_1| > x"),
+            "share": described(counts / n_draws[:, None], dims, "share of draws with |v_1| > x"),
             "low": described(intervals[..., 0], dims, "lower end of the exact 95 % interval"),
             "high": described(intervals[..., 1], dims, "upper end of the exact 95 % interval"),
             "exact": described(
@@ -61,7 +68,7 @@ def reduce(samples, settings):
                 ("threshold",),
                 "P(|v| > x) of eq. (8)",
             ),
-            "n_draws": described(n_draws, (), "draws of each series"),
+            "n_draws": described(n_draws, ("series",), "draws"),
             "moment": described(
                 [_kac.exact_moment(case) for case in grid.values()],
                 ("series",),
@@ -87,7 +94,7 @@ def _gain(dataset, x):
     misses = []
     for name in ("bird", "poisson"):
         here = dataset.sel(series=name, threshold=x)
-        share = estimate.of_share(int(here["count"]), int(dataset.n_draws))
+        share = estimate.of_share(int(here["count"]), int(here.n_draws))
         miss = abs(share.value - float(here.exact))
         misses.append(estimate.Mean(miss, share.standard_error).over(float(here.exact)))
     return misses[0].minus(misses[1])

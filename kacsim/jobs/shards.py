@@ -35,7 +35,7 @@ def merged(parts, folder="results/shards"):
     """Return the variables of a case from the files of its shards.
 
     What has a dimension ``replicate`` is joined along it, first values are cut at their number,
-    largest values are ranked anew; one shard at a time is in memory.
+    largest values are ranked anew. One shard at a time is in memory beside the result.
 
     Parameters
     ----------
@@ -58,18 +58,22 @@ def merged(parts, folder="results/shards"):
 
     most = named(f"kacsim.{parts[0].sampler.family}", "sampling", "KEPT")
 
-    rows, found = {}, {}
+    found = {}
     for part in parts:
         content = store.read_variables(Path(folder) / Path(part.output()).name, part)
         for name, (dims, values, attributes) in content.items():
+            known = found[name][1] if name in found else None
             if "replicate" in dims:
-                rows.setdefault(name, []).append(values)
-            elif name in found and dims[0] in ("kept", "draw"):
-                values = np.concatenate([found[name][1], values])[:most]
-            elif name in found and "rank" in dims:
-                values = descending(np.concatenate([found[name][1], values], axis=-1))[..., :TOP]
+                axis = dims.index("replicate")
+                if known is None:
+                    shape = list(values.shape)
+                    shape[axis] = part.n_replicates
+                    known = np.empty(shape, values.dtype)
+                np.moveaxis(known, axis, 0)[part.replicates] = np.moveaxis(values, axis, 0)
+                values = known
+            elif known is not None and dims[0] in ("kept", "draw"):
+                values = np.concatenate([known, values[: max(0, most - len(known))]])
+            elif known is not None and "rank" in dims:
+                values = descending(np.concatenate([known, values], axis=-1))[..., :TOP].copy()
             found[name] = dims, values, attributes
-    for name, values in rows.items():
-        dims, _, attributes = found[name]
-        found[name] = dims, np.concatenate(values, axis=dims.index("replicate")), attributes
     return found

@@ -121,17 +121,26 @@ def of_replicates(values):
     return Mean(float(values.mean()), error, values.size - 1)
 
 
-def of_power(moments, order, n_draws):
+def of_power(moments, order, n_draws, square=None):
     """Return the mean of v**order from summed moments.
 
     Parameters
     ----------
-    moments : mapping or Series, order -> mean of v**order over the draws; holds 2 * order too
-    order : even int
+    moments : mapping or Series, order -> mean of v**order over the draws; holds 2 * order too, and
+        with a control variate 2, 4 and order + 2
+    order : even int, above 2 with a control variate
     n_draws : int, draws behind the moments
+    square : float, the known mean of v**2, which is then a control variate: what the draws' own
+        mean has too much, times the slope of v**order on v**2, is taken off
     """
     mean = float(moments[order])
     variance = max(0.0, float(moments[2 * order]) - mean**2)
+    if square is not None:
+        own = float(moments[2])
+        spread = float(moments[4]) - own**2
+        slope = (float(moments[order + 2]) - mean * own) / spread if spread > 0.0 else 0.0
+        mean -= slope * (own - square)
+        variance = max(0.0, variance - slope**2 * spread)
     return Mean(mean, math.sqrt(variance / n_draws))
 
 

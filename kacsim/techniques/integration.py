@@ -76,39 +76,59 @@ def mixed(word):
     return word ^ (word >> uint64(31))
 
 
+@inlined
+def cycle_of(period, dimension):
+    """Return after how many points the same points come again."""
+    return period // math.gcd(period, dimension)
+
+
+@inlined
+def count_again(inside, n_points, hits, cycle):
+    """Fill in the counts from those of the first points, which come again cycle after cycle.
+
+    Parameters
+    ----------
+    inside, n_points : int64[n]
+    hits : int64[m + 1], those of the first k points; m is the cycle, or all points if fewer
+    cycle : int
+    """
+    for place in range(n_points.size):
+        whole, rest = n_points[place] // cycle, n_points[place] % cycle
+        inside[place] = whole * hits[-1] + hits[rest]
+
+
 @kernel
 def count_exhausted(inside, n_points, dimension, stream):
-    """Do as `count_good` with a generator whose `EXHAUSTED` numbers come again and again."""
-    done, hits, counter = 0, 0, 0
-    key = next_bits(stream)
-    for place in range(n_points.size):
-        for _ in range(n_points[place] - done):
-            square = 0.0
-            for _ in range(dimension):
-                word = mixed(key + uint64(counter) * uint64(0x9E3779B97F4A7C15))
-                x = int64(word >> uint64(11)) * 2.0**-53
-                counter = (counter + 1) & (EXHAUSTED - 1)
-                square += x * x
-            hits += int64(square <= 1.0)
-        done = n_points[place]
-        inside[place] = hits
+    """Do as `count_good` with a generator whose `EXHAUSTED` numbers come again and again.
+
+    Only the first cycle is drawn: the others are the same.
+    """
+    key, counter, cycle = next_bits(stream), 0, cycle_of(EXHAUSTED, dimension)
+    hits = np.zeros(min(cycle, n_points[-1]) + 1, np.int64)
+    for k in range(hits.size - 1):
+        square = 0.0
+        for _ in range(dimension):
+            word = mixed(key + uint64(counter) * uint64(0x9E3779B97F4A7C15))
+            x = int64(word >> uint64(11)) * 2.0**-53
+            counter = (counter + 1) & (EXHAUSTED - 1)
+            square += x * x
+        hits[k + 1] = hits[k] + int64(square <= 1.0)
+    count_again(inside, n_points, hits, cycle)
 
 
 @kernel
 def count_congruential(inside, n_points, dimension, stream):
-    """Do as `count_good` with a generator that takes each of `PERIOD` values once."""
-    done, hits = 0, 0
-    state = int64(uniform(stream) * PERIOD)
-    for place in range(n_points.size):
-        for _ in range(n_points[place] - done):
-            square = 0.0
-            for _ in range(dimension):
-                state = (state * FACTOR + SHIFT) % PERIOD
-                x = state / PERIOD
-                square += x * x
-            hits += int64(square <= 1.0)
-        done = n_points[place]
-        inside[place] = hits
+    """Do as `count_exhausted` with a generator that takes each of `PERIOD` values once."""
+    state, cycle = int64(uniform(stream) * PERIOD), cycle_of(PERIOD, dimension)
+    hits = np.zeros(min(cycle, n_points[-1]) + 1, np.int64)
+    for k in range(hits.size - 1):
+        square = 0.0
+        for _ in range(dimension):
+            state = (state * FACTOR + SHIFT) % PERIOD
+            x = state / PERIOD
+            square += x * x
+        hits[k + 1] = hits[k] + int64(square <= 1.0)
+    count_again(inside, n_points, hits, cycle)
 
 
 @kernel

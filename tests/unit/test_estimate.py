@@ -113,6 +113,21 @@ def test_of_power_is_numpys(order):
     assert mean.standard_error == pytest.approx(np.std(VALUES**order) / math.sqrt(VALUES.size))
 
 
+def test_a_control_variate_is_the_least_squares_line_at_the_known_mean():
+    moments = {k: np.mean(VALUES**k) for k in (2, 4, 6, 8)}
+    mean = estimate.of_power(moments, 4, VALUES.size, square=1.25)
+    slope, level = np.polyfit(VALUES**2, VALUES**4, 1)
+    left = VALUES**4 - slope * VALUES**2 - level
+    assert mean.value == pytest.approx(slope * 1.25 + level)
+    assert mean.standard_error == pytest.approx(np.std(left) / math.sqrt(VALUES.size))
+
+
+def test_a_control_variate_that_does_not_vary_changes_nothing():
+    ones = {k: 1.0 for k in (2, 4, 6, 8)}
+    mean = estimate.of_power(ones, 4, 10, square=1.5)
+    assert (mean.value, mean.standard_error) == (1.0, 0.0)
+
+
 def test_of_power_of_a_constant_has_no_spread():
     """Rounding may make the variance of equal values slightly negative."""
     mean = estimate.of_power({2: 0.1, 4: 0.1**2 - 1e-18}, 2, 10)

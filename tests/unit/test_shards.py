@@ -2,6 +2,7 @@
 
 import dataclasses
 import shlex
+import tracemalloc
 from pathlib import Path
 
 import pytest
@@ -195,3 +196,27 @@ def test_more_replicates_ask_for_more_memory():
     few, many = case_of("kac"), case_of("kac", n_replicates=100_000)
     assert many.megabytes() > few.megabytes() > 0
     assert many.split(1000)[0].megabytes() == pytest.approx(few.megabytes(), abs=2)
+
+
+@pytest.mark.parametrize("sampler", ["kac", "bkw_moment"])
+def test_memory_of_merging_does_not_grow_with_the_shards(sampler, folder, monkeypatch):
+    """Ten times the shards take at most what ten times the replicates of the result take.
+
+    A shard holds some 100 kB of first values or largest ones, so that a hundred kept at once would
+    take 10 MB.
+    """
+    monkeypatch.setattr(kac_sampling, "KEPT", 12_000)
+    monkeypatch.setattr(boltzmann_sampling, "TOP", 12_000)
+    peak, size = {}, {}
+    for number in (10, 100):
+        parts = case_of(sampler, n_draws=12_000, n_replicates=number).split(number)
+        content = sampling.run(parts[0])
+        for part in parts:
+            written(content, part, part.output())
+        tracemalloc.start()
+        merged = shards.merged(parts)
+        peak[number] = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        size[number] = sum(values.nbytes for _, values, _ in merged.values())
+    assert size[100] < 2_000_000
+    assert peak[100] < peak[10] + size[100] - size[10] + 400_000

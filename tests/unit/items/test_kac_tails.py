@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from fabricated import bins, eq_8, found, judged, reduced, settings, velocities
 
+from kacsim import items
 from kacsim.items import kac_tails
 from kacsim.statistics.estimate import Exact
 
@@ -30,9 +31,10 @@ def dataset():
     def make(case):
         above, below = BEYOND[name_of(case)]
         rest = N_DRAWS - sum(above.values()) - sum(below.values())
-        return velocities(case, np.array([bins(above | below | {0.0: rest})] * N_REPLICATES))
+        return velocities(case, np.array([bins(above | below | {0.0: rest})] * case.n_replicates))
 
     sizes = {"n_draws": N_DRAWS, "n_replicates": N_REPLICATES, "n_particles": N}
+    sizes["other_n_replicates"] = 3
     thresholds = {"tail_threshold": [2.0, 3.0, 3.5], "claim_threshold": [2.0, 3.0]}
     return reduced("kac_tails", settings("kac_tails", **sizes, **thresholds), make)
 
@@ -45,8 +47,9 @@ def exact_tail(x):
 def test_counts_are_of_both_tails_and_all_replicates(dataset):
     assert dataset["count"].sel(series="bird").values.tolist() == [157_800, 5800, 0]
     assert dataset["count"].sel(series="poisson").values.tolist() == [157_200, 5200, 5200]
-    assert dataset["count"].sel(series="endless").values.tolist() == [22, 22, 0]
-    assert int(dataset.n_draws) == N_REPLICATES * N_DRAWS
+    assert dataset["count"].sel(series="endless").values.tolist() == [33, 33, 0]
+    assert dataset.n_draws.values.tolist() == [2 * N_DRAWS, 2 * N_DRAWS, 3 * N_DRAWS, 3 * N_DRAWS]
+    assert float(dataset.share.sel(series="endless", threshold=2.0)) == 11 / N_DRAWS
     assert dataset.exact.values == pytest.approx([exact_tail(x) for x in (2.0, 3.0, 3.5)], rel=1e-7)
 
 
@@ -103,3 +106,9 @@ def test_a_threshold_that_is_not_drawn_is_refused():
     assert key == "claim_threshold"
     assert "2.25" in sentence
     assert kac_tails.problems(settings("kac_tails")) == []
+
+
+def test_the_draws_of_bird_and_poisson_are_those_of_fig_5():
+    chosen = {name: settings(name) for name in ("kac_tails", "kac_fig5")}
+    ids = {name: {case.id for case in items.load(name).cases(one)} for name, one in chosen.items()}
+    assert ids["kac_fig5"] < ids["kac_tails"]

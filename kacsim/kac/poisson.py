@@ -97,8 +97,9 @@ def prepare(arguments, most):
     s of N particles are touched by s (N - s) + s (s - 1) / 2 pairs, each at the rate 1 / (N - 1).
     """
     size = float(arguments[0])
-    pauses = np.empty(most)
-    for s in range(most):
+    pauses = np.empty(min(arguments[0] + 1, most))
+    pauses[0] = math.inf
+    for s in range(1, pauses.size):
         pauses[s] = 2.0 * (size - 1.0) / (s * (2.0 * size - s - 1.0))
     return pauses
 

@@ -1,67 +1,28 @@
-"""Measure the kernels, as ratios in one run.
+"""The speeds of the kernels, with what was asked for, beside plain versions of the same.
 
-One thread, medians of several repeats.
-
-The baselines are kept here: the obvious numba version of Bird's algorithm (global generator,
-sine and cosine, three normals for f0), and the literal epsilon-perfect algorithm.
+The plain versions are the peers' obvious numba version of Bird's algorithm, the literal
+epsilon-perfect algorithm, and plain recursions of the trees.
 """
 
-import math
-import platform
 import resource
 import statistics
-import time
 
 import numpy as np
 
+from kacsim.benchmark.peers import obvious_bird
+from kacsim.benchmark.timing import seconds_per_draw
 from kacsim.boltzmann import bkw_tree, literal, literal_trap, trap, trap_tree
 from kacsim.boltzmann.constants import BREATHING
 from kacsim.cases import make_case
 from kacsim.kac import bird, perfect, poisson
 from kacsim.kac.constants import MEAN_ENERGY, RATE
-from kacsim.kernels.jit import kernel
-from kacsim.kernels.provenance import versions
 from kacsim.streams import new_stream
 
 SPAN = 2.0  # from the start to what is drawn
 
 
-@kernel
-def obvious_bird(velocities, n_particles, n_collisions):
-    """Draw v_1 by Bird's algorithm as one writes it first: the baseline of the benchmark."""
-    v = np.empty(n_particles)
-    for draw in range(velocities.size):
-        for i in range(n_particles):
-            square = 0.0
-            for _ in range(3):
-                square += 0.5 * np.random.standard_normal() ** 2
-            v[i] = math.sqrt(square) if np.random.random() < 0.5 else -math.sqrt(square)
-        for _ in range(n_collisions):
-            i = np.random.randint(n_particles)
-            j = np.random.randint(n_particles - 1)
-            if j >= i:
-                j += 1
-            angle = 2.0 * math.pi * np.random.random()
-            vi, vj = v[i], v[j]
-            v[i] = vi * math.cos(angle) + vj * math.sin(angle)
-            v[j] = vj * math.cos(angle) - vi * math.sin(angle)
-        velocities[draw] = v[0]
-
-
-def seconds_per_draw(call, n_draws, repeats):
-    """Return the median processor time of call(n_draws) per draw, after a call that compiles."""
-    call(2)
-    times = []
-    for _ in range(repeats):
-        start = time.process_time()
-        call(n_draws)
-        times.append(time.process_time() - start)
-    return statistics.median(times) / n_draws
-
-
 def run(repeats):
     """Measure everything and print one line per figure."""
-    print(f"machine: {_processor()}; {versions()}; medians of {repeats}")
     _bird(repeats)
     _ancestral(repeats)
     _perfect(repeats)
@@ -69,14 +30,6 @@ def run(repeats):
     _bkw_tree(repeats)
     _trap_tree(repeats)
     _memory()
-
-
-def _processor():
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            return next(line.split(":")[1].strip() for line in lines if "model name" in line)
-    except (OSError, StopIteration):
-        return platform.processor() or platform.machine()
 
 
 def _draws(kernel_function, arguments):

@@ -57,10 +57,12 @@ def kernels():
     for module in pkgutil.walk_packages(kacsim.__path__, "kacsim."):
         if module.name.endswith("__main__"):
             continue
-        for one in vars(importlib.import_module(module.name)).values():
-            kernel = getattr(one, "__wrapped__", one)
-            if isinstance(kernel, Dispatcher) and isinstance(kernel._cache, cache._Cache):
-                found[f"{kernel.py_func.__module__}.{kernel.py_func.__name__}"] = kernel
+        for name, one in vars(importlib.import_module(module.name)).items():
+            # Ancestral draws are functions around a kernel.
+            kernel = one if isinstance(one, Dispatcher) else getattr(one, "__wrapped__", None)
+            kept = isinstance(kernel, Dispatcher) and isinstance(kernel._cache, cache._Cache)
+            if kept and kernel not in found.values():
+                found[f"{module.name}.{name}"] = kernel
     return {name: kernel for name, kernel in found.items() if not name.startswith(EXEMPT)}
 
 

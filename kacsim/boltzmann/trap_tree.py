@@ -225,7 +225,7 @@ def estimate_energy(values, nodes, threshold, time, physics, choices, max_nodes,
     return beyond(values, nodes, threshold, time, physics, choices, max_nodes, True, stream)
 
 
-@inlined
+@allocating
 def beyond(values, nodes, threshold, time, physics, choices, max_nodes, energy, stream):
     """Fill the realizations of Algorithm 7; the velocity is from the local Maxwellian of (31).
 

@@ -116,7 +116,7 @@ def ancestral_draws(prepare, history, replay=share):
             simulated += events
         return draw, simulated
 
-    @functools.wraps(history)
+    @functools.wraps(attempt)
     def ancestral(velocities, own, *arguments):
         done, simulated, capacity = 0, 0, LEAST
         while done < velocities.size:

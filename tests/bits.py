@@ -34,7 +34,9 @@ HARMLESS = re.compile(
     r"_ZN|_?Py|NRT_|mem(set|cpy|move|cmp)$|__excinfo|"
     r"numba_(gil_|unpickle|do_raise|runtime_build|attempt_nocopy_reshape)"
 )
-CALLED = re.compile(r"(?:movabsq?\s+\$|callq?\s+|jmpq?\s+|\bbl?\s+)([A-Za-z_][\w$]*)")
+CALLED = re.compile(
+    r"^\s*(?:movabsq?[ \t]+\$|callq?[ \t]+|jmpq?[ \t]+|bl?[ \t]+)([A-Za-z_][\w$]*)", re.MULTILINE
+)
 CONTRACTED = re.compile(r"^\s*(v?fn?m(?:add|sub)\w*|fml[as])\s", re.MULTILINE)
 
 

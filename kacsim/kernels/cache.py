@@ -104,6 +104,14 @@ class _Cache(caching.FunctionCache):
         super().__init__(function)
         repair(Path(self.cache_path))
 
+    def _index_key(self, signature, codegen):
+        """Return what tells compiled code of one folder apart.
+
+        The folder's name says what the function encloses. numba would hash it as pickled, and a
+        compiled function is pickled with a number of its process: its code would not be found.
+        """
+        return signature, codegen.magic_tuple()
+
     def save_overload(self, signature, data):
         """Save compiled code and seal the folder."""
         with contextlib.suppress(OSError):  # a full disk: compiled again by the next process

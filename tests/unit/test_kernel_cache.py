@@ -21,9 +21,21 @@ print(sum(through_table.stats.cache_hits.values()))
 """
 
 
-def draw(**given):
+DRAW_ENCLOSED = """
+import numpy as np
+from kacsim.kac import poisson
+from kacsim.streams import new_stream
+values, own = np.empty(3), np.empty(3, np.int64)
+poisson.ancestral(values, own, *poisson.arguments(n_particles=5, time=1.0, collision_rate=1.0),
+                  new_stream(5, "test"))
+print(values.tobytes().hex())
+print(sum(poisson.ancestral.__wrapped__.stats.cache_hits.values()))
+"""
+
+
+def draw(script=DRAW, **given):
     """Draw in a new process with some environment: (bits, loaded from the cache, stderr)."""
-    command = [sys.executable, "-c", DRAW]
+    command = [sys.executable, "-c", script]
     environment = os.environ | {name: str(value) for name, value in given.items()}
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -71,6 +83,13 @@ def test_kernels_are_kept_and_damaged_ones_compiled_again(kernels, first):
     assert draw(KACSIM_CACHE_DIR=kernels)[0] == bits
     assert draw(KACSIM_CACHE_DIR=kernels)[1], "sealed again"
     assert stray() == []
+
+
+def test_a_kernel_that_encloses_others_is_kept(tmp_path):
+    """An ancestral kernel encloses the histories of its algorithm, themselves compiled."""
+    bits, loaded, _ = draw(DRAW_ENCLOSED, KACSIM_CACHE_DIR=tmp_path)
+    assert not loaded
+    assert draw(DRAW_ENCLOSED, KACSIM_CACHE_DIR=tmp_path) == (bits, True, "")
 
 
 def test_kernels_without_checksums_are_left_alone(kernels, first):

@@ -63,8 +63,8 @@ def touch_scale(members, n_particles):
 def prepare(arguments, most):
     """Return `touch_scale` for fewer than `most` ancestors: a logarithm saved per collision."""
     n_particles = arguments[0]
-    scales = np.empty(min(n_particles + 1, most))
-    for members in range(scales.size):
+    scales = np.zeros(min(n_particles + 1, most))
+    for members in range(1, scales.size):
         scales[members] = touch_scale(members, n_particles)
     return scales
 
@@ -78,11 +78,11 @@ def history(arguments, scales, tape, start, root, stream):
     n_particles, left = arguments
     n, members, own = start, 1, 0
     while True:
+        if n == tape.first.size or members == scales.size:
+            return -1, members, own
         left -= failures_before_success(scales[members], stream) + 1
         if left < 0:
             return n, members, own
-        if n == tape.first.size or members == scales.size:
-            return -1, members, own
         # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.
         i, j = two_below(members, 2 * n_particles - members - 1, stream)
         if j < members - 1:

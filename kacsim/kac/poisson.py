@@ -17,9 +17,6 @@ from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import exponential, index_below, pair_below, two_below
 
-# Two of at most 1000 ancestors among so many meet in less than one collision of 1e15.
-INFINITELY_MANY = 2**61
-
 # Two of the ancestors among so many meet in less than one collision of 1e15.
 INFINITELY_MANY = 2**61
 
@@ -92,7 +89,7 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
 
 @allocating
 def prepare(arguments, most):
-    """Return the mean time between collisions that touch one of s ancestors, s < `most`.
+    """Return the mean time between collisions that touch one of s ancestors, 0 < s < `most`.
 
     s of N particles are touched by s (N - s) + s (s - 1) / 2 pairs, each at the rate 1 / (N - 1).
     """
@@ -113,11 +110,11 @@ def history(arguments, pauses, tape, start, root, stream):
     n_particles, left, _ = arguments
     n, members, own = start, 1, 0
     while True:
+        if n == tape.first.size or members == pauses.size:
+            return -1, members, own
         left -= exponential(stream) * pauses[members]
         if left < 0.0:
             return n, members, own
-        if n == tape.first.size or members == pauses.size:
-            return -1, members, own
         # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.
         i, j = two_below(members, 2 * n_particles - members - 1, stream)
         if j < members - 1:

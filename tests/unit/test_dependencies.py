@@ -99,9 +99,9 @@ def test_the_trace_sees_what_a_hole_would_hide(monkeypatch):
     assert first["required"] >= {
         ("kacsim.kac.nanbu_sequential", "ancestral"),  # looked up by name
         ("kacsim.kac.sampling", "_velocity_sums"),  # called
-        ("kacsim.kac.model", "growing"),  # a decorator, which runs at the import
+        ("kacsim.kac.tape", "ancestral_draws"),  # runs at the import
         ("kacsim.statistics.histogram", "FINE_WIDTH"),  # a constant of another module
-        ("kacsim.variates", "_ziggurat"),  # called to make a constant
+        ("kacsim.variate_tables", "strips"),  # called to make a constant
         ("kacsim.kernels.jit", "ERROR_MODEL"),  # read to make a function
     }
     roots, other = (frozenset(stages.sample_roots(CASES[k])) for k in (kac, literal))

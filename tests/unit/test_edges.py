@@ -67,7 +67,7 @@ def test_a_probe_too_far_out_says_so():
     """At v = 16 the mean is wrong by a factor of 200 at this size: the largest share tells."""
     found = kac.estimate_density(16.0, 0.5, n_realizations=100_000, seed=2)
     near = kac.estimate_density(2.0, 0.5, n_realizations=100_000, seed=2)
-    assert found.largest_share > 0.5
+    assert found.largest_share > 0.2
     assert near.largest_share < 0.001
     assert abs(near.mean - kac.density(2.0, 0.5)) < 4.0 * near.standard_error
 

@@ -1,4 +1,4 @@
-"""The law of every variate: moments, Kolmogorov-Smirnov, fine bins, and the ziggurats' tails."""
+"""The law of every variate: moments, Kolmogorov-Smirnov, fine bins, and the tails."""
 
 import math
 
@@ -8,12 +8,13 @@ import pytest
 from law import compare
 from scipy import special, stats
 
-from kacsim import variates
+from kacsim import variate_tables, variates
 from kacsim.streams import new_stream
 
 N = 1_000_000
 FINE = 20_000_000
 N_BINS = 256
+SPEED = stats.maxwell(scale=math.sqrt(0.5))
 
 
 def filler(variate, width=1):
@@ -69,6 +70,10 @@ CONTINUOUS = {
     "half_normal": (
         lambda seed: draws(variates.half_normal, "half_normal", seed),
         stats.halfnorm(),
+    ),
+    "maxwell_speed": (
+        lambda seed: draws(variates.maxwell_speed, "maxwell_speed", seed),
+        SPEED,
     ),
     "squared_cosine": (
         lambda seed: draws(variates.squared_cosine, "squared_cosine", seed),
@@ -177,6 +182,12 @@ def half_normal_level(stream):
 
 
 @numba.njit
+def speed_level(stream):
+    x = variates.maxwell_speed(stream)
+    return math.erfc(x) + 2.0 / math.sqrt(math.pi) * x * math.exp(-x * x)
+
+
+@numba.njit
 def circle_level(stream):
     cos, sin = variates.unit_circle(stream)
     return 0.5 + math.atan2(sin, cos) / (2.0 * math.pi)
@@ -190,6 +201,7 @@ def squared_cosine_level(stream):
 LEVELS = {
     "exponential": exponential_level,
     "half_normal": half_normal_level,
+    "maxwell_speed": speed_level,
     "unit_circle": circle_level,
     "squared_cosine": squared_cosine_level,
 }
@@ -233,24 +245,42 @@ def tail_of(variate, least, n, stream):
                 found += 1
         return found
 
-    out = np.empty(n // 500)
+    out = np.empty(n // 200)
     return out[: keep(out, stream)]
 
 
-@pytest.mark.parametrize(
-    ("name", "least", "law"),
-    [("exponential", 7.7, stats.expon()), ("half_normal", 3.66, stats.halfnorm())],
-)
-def test_ziggurat_tail(name, least, law, seed):
-    """Null: P(X > x) beyond the lowest layer, and the law of X there.
+@numba.njit
+def negative_speed(stream):
+    return -variates.maxwell_speed(stream)
 
-    Statistics: binomial z and Kolmogorov-Smirnov. 4e7 draws leave 18000 and 10000 in the tail:
-    they see 3 and 4 % of its probability. Mutants: a share 10 % too large, excesses 20 % too long.
+
+class Negative:
+    """The law of a speed with its sign changed."""
+
+    @staticmethod
+    def sf(x):
+        return SPEED.cdf(-x)
+
+
+@pytest.mark.parametrize(
+    ("variate", "least", "law"),
+    [
+        (variates.exponential, 7.7, stats.expon()),
+        (variates.half_normal, 3.66, stats.halfnorm()),
+        (variates.maxwell_speed, variate_tables.SPEED_TAIL, SPEED),
+        (variates.maxwell_speed, 3.1, SPEED),
+        (negative_speed, -0.75 * variate_tables.SPEED_EDGE[1], Negative),
+    ],
+    ids=["exponential", "half_normal", "speed", "high_speed", "low_speed"],
+)
+def test_tail(variate, least, law, seed):
+    """Null: P(X > x) beyond the layers, or near a speed of 0, and the law of X there.
+
+    Statistics: binomial z and Kolmogorov-Smirnov. 4e7 draws leave at least 10000 in the tail: they
+    see 4 % of its probability. Mutants: a share 10 % too large, excesses 20 % too long.
     """
     n, share = compare.scaled(2 * FINE), law.sf(least)
-    tail = tail_of(
-        getattr(variates, name), least, n, new_stream(seed, f"test_variates tail {name}")
-    )
+    tail = tail_of(variate, least, n, new_stream(seed, f"test_variates tail {least}"))
     assert compare.ok(compare.of_share(tail.size, n, share))
     assert compare.caught(compare.of_share(tail.size, n, share / 1.1))
 

@@ -21,8 +21,12 @@ def _grid(settings):
 
 
 def _reference_grid(settings):
+    # All but the line are drawn for Fig. 3 too.
+    line, others = ({"n_replicates": settings[f"{key}n_replicates"]} for key in ("line_", ""))
     return {
-        (a, n): _kac.velocity_case(settings, algorithm, n_particles)
+        (a, n): _kac.velocity_case(
+            settings, algorithm, n_particles, **(line if a + n == 0 else others)
+        )
         for a, algorithm in enumerate(REFERENCES)
         for n, n_particles in enumerate(settings["reference_n_particles"])
     }
@@ -88,7 +92,8 @@ def _normal_floor(bin_width, n_draws):
 def _reference(dataset, algorithm, n):
     """Return the mean TVN of an algorithm without a step; its replicates give its error."""
     here = dataset.isel(bin_width=0).sel(algorithm=algorithm, reference_n=n)
-    degrees = dataset.attrs["settings"]["n_replicates"] - 1
+    line = algorithm == REFERENCES[0] and n == dataset.reference_n[0]
+    degrees = dataset.attrs["settings"]["line_n_replicates" if line else "n_replicates"] - 1
     return estimate.Mean(float(here.reference_tvn), float(here.reference_tvn_error), degrees)
 
 

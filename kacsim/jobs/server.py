@@ -1,7 +1,8 @@
 """One warmed process from which the jobs of a run are forked: imports are paid once, not per job.
 
 It is started by Snakemake on Linux, ends with it, however that ends, and serves `client.py`. A job
-keeps its own process, log, status and benchmark; one whose client goes away is told to end.
+keeps its own process, log, status and benchmark; one whose client goes away is told to end. Jobs
+that compile share a process, one after the other, for kernels share most of what they are built from.
 """
 
 import atexit
@@ -62,12 +63,16 @@ def start(root):
 
 
 class Server:
-    """Forks a child for each connection and sends its status back when it ends."""
+    """Forks a child for each connection and sends its status back when it ends.
+
+    A child that compiles stays for the next such connection.
+    """
 
     def __init__(self, listening):
         """Take over a listening socket."""
         self.socket = listening
         self.children = {}  # process id -> connection of its client
+        self.compilers = {}  # process id of a child that compiles -> channel to it
         read, write = os.pipe()
         os.set_blocking(write, False)
         signal.set_wakeup_fd(write)
@@ -89,63 +94,117 @@ class Server:
                 elif key.fileobj == sys.stdin.fileno():
                     self._end_all()
                     return
+                elif key.fileobj in self.compilers.values():
+                    self._compiled(key.fileobj)
                 else:
                     self._end(key.fileobj)
 
     def _accept(self):
         connection, _ = self.socket.accept()
-        message, descriptors, _, _ = socket.recv_fds(connection, LONGEST, 3)
-        while message and not message.endswith(b"\n"):
-            more = connection.recv(LONGEST)
-            message = message + more if more else b""
+        message, descriptors = received(connection)
         if not message:
             connection.close()
             return
-        child = os.fork()
-        if child == 0:
-            self._become_job(json.loads(message), descriptors)
+        request = json.loads(message)
+        if request["words"][:1] == ["compile"]:
+            child = self._idle_compiler(connection.fileno(), *descriptors)
+            sent = socket.send_fds(self.compilers[child], [message], descriptors)
+            self.compilers[child].sendall(message[sent:])
+        else:
+            child = os.fork()
+            if child == 0:
+                self._become_job(request, descriptors)
         for descriptor in descriptors:
             os.close(descriptor)
         self.children[child] = connection
         self.waiting.register(connection, selectors.EVENT_READ)
 
-    def _become_job(self, request, descriptors):
-        """Run a command in this child, and never return."""
+    def _idle_compiler(self, *of_client):
+        """Return the process id of a compiler without work, a new one if there is none.
+
+        A new one must not hold what is `of_client`, who waits for its end.
+        """
+        for child in self.compilers:
+            if child not in self.children:
+                return child
+        ours, theirs = socket.socketpair()
+        child = os.fork()
+        if child == 0:
+            ours.close()
+            for descriptor in of_client:
+                os.close(descriptor)
+            self._become_compiler(theirs)
+        theirs.close()
+        self.compilers[child] = ours
+        self.waiting.register(ours, selectors.EVENT_READ)
+        return child
+
+    def _compiled(self, channel):
+        """Send the status of a compiler's job to its client."""
+        status = channel.recv(16)
+        if not status:  # it has ended, which `_bury` will tell
+            self._forget(channel)
+            return
+        child = next(one for one, of_child in self.compilers.items() if of_child is channel)
+        self._answer(self.children.pop(child), status)
+
+    def _leave_server(self):
+        """Make this child of the server a process like any other."""
         signal.set_wakeup_fd(-1)
         end_with_parent()
         for number in (signal.SIGCHLD, signal.SIGINT, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
         self.waiting.close()
         self.socket.close()
-        for connection in self.children.values():
+        for connection in (*self.children.values(), *self.compilers.values()):
             connection.close()
-        for target, descriptor in enumerate(descriptors):
-            os.dup2(descriptor, target)
-            os.close(descriptor)
+
+    def _become_job(self, request, descriptors):
+        """Run a command in this child, and never return."""
+        self._leave_server()
         status = 1
         try:
-            os.chdir(request["folder"])
-            os.environ.clear()
-            os.environ.update(request["environment"])
-            status = run(request["words"])
+            status = answer(request, descriptors)
         finally:
-            with contextlib.suppress(OSError, ValueError):
-                sys.stdout.flush()
-                sys.stderr.flush()
             os._exit(status)
+
+    def _become_compiler(self, channel):
+        """Run commands in this child as they come, and never return."""
+        self._leave_server()
+        nothing = os.open(os.devnull, os.O_RDWR)
+        try:
+            while True:
+                message, descriptors = received(channel)
+                if not message:
+                    break
+                status = answer(json.loads(message), descriptors)
+                for target in range(3):  # who reads the job's output waits for its end
+                    os.dup2(nothing, target)
+                channel.sendall(str(status).encode())
+        finally:
+            os._exit(0)
 
     def _bury(self):
         """Send the status of every child that has ended to its client."""
-        while self.children:
+        while self.children or self.compilers:
             child, status = os.waitpid(-1, os.WNOHANG)
             if child == 0:
                 return
-            connection = self.children.pop(child)
-            self._forget(connection)
-            code = os.waitstatus_to_exitcode(status)
-            with contextlib.suppress(OSError):
-                connection.sendall(str(code if code >= 0 else 128 - code).encode())
-            connection.close()
+            if child in self.compilers:
+                channel = self.compilers.pop(child)
+                self._forget(channel)
+                channel.close()
+            if child in self.children:
+                code = os.waitstatus_to_exitcode(status)
+                code = code if code >= 0 else 128 - code
+                self._answer(self.children.pop(child), str(code).encode())
+
+    def _answer(self, connection, status):
+        """Send a status to a client, and be done with it."""
+        self._forget(connection)
+        with contextlib.suppress(OSError):
+            connection.sendall(status)
+        connection.close()
 
     def _end(self, connection):
         """Tell the job of a client that has gone to end."""
@@ -155,12 +214,37 @@ class Server:
         self._forget(connection)
 
     def _end_all(self):
-        for child in self.children:
+        for child in {*self.children, *self.compilers}:
             os.kill(child, signal.SIGTERM)
 
     def _forget(self, connection):
         with contextlib.suppress(KeyError):
             self.waiting.unregister(connection)
+
+
+def received(connection):
+    """Return (message, descriptors) of a client; an empty message if it has gone."""
+    message, descriptors, _, _ = socket.recv_fds(connection, LONGEST, 3)
+    while message and not message.endswith(b"\n"):
+        more = connection.recv(LONGEST)
+        message = message + more if more else b""
+    return message, descriptors
+
+
+def answer(request, descriptors):
+    """Run a command with a client's streams, folder and environment; return its status."""
+    for target, descriptor in enumerate(descriptors):
+        os.dup2(descriptor, target)
+        os.close(descriptor)
+    try:
+        os.chdir(request["folder"])
+        os.environ.clear()
+        os.environ.update(request["environment"])
+        return run(request["words"])
+    finally:
+        with contextlib.suppress(OSError, ValueError):
+            sys.stdout.flush()
+            sys.stderr.flush()
 
 
 def end_with_parent():

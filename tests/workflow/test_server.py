@@ -139,3 +139,41 @@ def test_a_run_goes_on_without_its_server(served, tmp_path):
     status, out, _ = finish(["plan", "--help"], address, tmp_path)
     assert status == 0
     assert out
+
+
+def test_jobs_that_compile_share_a_process(served, tmp_path, monkeypatch):
+    """One after the other, with streams and status of their own; two at a time take two."""
+    holder, address, number = served
+    monkeypatch.setenv("KACSIM_CACHE_DIR", str(tmp_path / "kernels"))
+    unit = "techniques/integration.sphere_points.count_good"
+    assert finish(["compile", unit, "--output", "good.txt"], address, tmp_path) == (0, "", "")
+    (child,) = children(number)
+    status, out, err = finish(["compile", "nothing", "--output", "x.txt"], address, tmp_path)
+    assert (status, out) == (2, "")
+    assert "invalid choice: 'nothing'" in err
+    for folder, where in ((tmp_path / "with", address), (tmp_path / "without", "/absent")):
+        folder.mkdir()
+        words = ["compile", "techniques/circles.circle_lattice", "--output", "lattice.txt"]
+        assert finish(words, where, folder) == (0, "", "")
+    first, second = ((tmp_path / name / "lattice.txt") for name in ("with", "without"))
+    assert first.read_bytes() == second.read_bytes()
+    assert children(number) == [child]
+    two = [start([*words[:-1], name], address, tmp_path) for name in ("a.txt", "b.txt")]
+    assert [job.wait(timeout=60) for job in two] == [0, 0]
+    assert child in children(number)
+    holder.kill()
+    until(lambda: gone(number) and gone(child))
+
+
+def test_a_job_that_compiles_ends_with_its_client(served, tmp_path, monkeypatch):
+    """Its process ends with it; the next job takes another."""
+    _, address, number = served
+    monkeypatch.setenv("KACSIM_CACHE_DIR", str(tmp_path / "kernels"))
+    unit = "kac/perfect.kac_corners"  # some seconds
+    job = start(["compile", unit, "--output", "corners.txt"], address, tmp_path)
+    until(lambda: children(number))
+    job.send_signal(signal.SIGTERM)
+    assert job.wait() != 0
+    until(lambda: not children(number))
+    unit = "techniques/integration.sphere_points.count_good"
+    assert finish(["compile", unit, "--output", "good.txt"], address, tmp_path) == (0, "", "")

@@ -10,7 +10,7 @@ from scipy import stats
 from kacsim import items
 
 N_DRAWS = 10**7
-MANY = {"n_replicates": 4, "other_n_replicates": 2}
+MANY = {"n_replicates": 4, "other_n_replicates": 2, "line_n_replicates": 10}
 STEPS, NUMBERS = [0.5, 1.0, 0.25], [10, 5]  # not in order: the largest step is not the first
 LINE = {
     ("bird", 50): 0.0095,
@@ -48,15 +48,15 @@ def wide(law):
     return np.r_[law[0], law[1:-1:2] + law[2:-1:2], law[-1]]
 
 
-def dealt(value):
+def dealt(value, n_replicates):
     """Return the mean TVN over all ways to deal draws whose share `value` is in the lower tail.
 
-    The others follow eq. (8); the number of a bin in a quarter of all draws is nearly normal.
+    The others follow eq. (8); the number of a bin in a part of all draws is nearly normal.
     """
     law = wide(eq_8(2.0))
     drawn = (1.0 - value) * law
     drawn[0] += value
-    spread = np.sqrt(np.maximum(drawn * (1.0 - drawn), 1e-20) / N_DRAWS * 0.75)
+    spread = np.sqrt(np.maximum(drawn * (1.0 - drawn), 1e-20) / N_DRAWS * (1.0 - 1.0 / n_replicates))
     return 0.5 * stats.foldnorm(np.abs(drawn - law) / spread, scale=spread).mean().sum()
 
 
@@ -76,9 +76,9 @@ def test_the_line_has_a_part_for_all_that_the_sentence_covers(findings):
     for (name, n), value in LINE.items():
         title = "Bird" if name == "bird" else "Poisson (exact)"
         mean = parts.pop(f"{title}, N = {n}")
-        assert mean.value == pytest.approx(dealt(value), abs=2e-6)
+        assert mean.value == pytest.approx(dealt(value, mean.degrees + 1), abs=2e-6)
         assert mean.standard_error == pytest.approx(ERRORS[name, n], rel=0.02)
-        assert mean.degrees == 3
+        assert mean.degrees == (9 if (name, n) == ("bird", 50) else 3)
     (exact,) = parts.values()
     assert exact.value == pytest.approx(floor(eq_8(2.0), N_DRAWS), rel=2e-3)
     assert exact.standard_error == 0.0
@@ -86,10 +86,15 @@ def test_the_line_has_a_part_for_all_that_the_sentence_covers(findings):
 
 def test_differences_to_the_line(findings):
     """The line less the other, at every N, and less exact draws of eq. (8) (N infinite)."""
-    endless = dealt(0.0095) - floor(eq_8(2.0), N_DRAWS)
+    line = dealt(0.0095, 10)
+    endless = line - floor(eq_8(2.0), N_DRAWS)
     wanted = {
-        "kac_fig2_bird_larger_n": {"N = 100": 0.0002, "N = ∞, exact draws": endless},
-        "kac_fig2_poisson": {"N = 50": 0.0003, "N = 100": 0.0004, "N = ∞, exact draws": endless},
+        "kac_fig2_bird_larger_n": {"N = 100": line - dealt(0.0093, 4), "N = ∞, exact draws": endless},
+        "kac_fig2_poisson": {
+            "N = 50": line - dealt(0.0092, 4),
+            "N = 100": line - dealt(0.0091, 4),
+            "N = ∞, exact draws": endless,
+        },
     }
     for claim, gaps in wanted.items():
         parts = {part.label: part.measured.value for part in findings[claim].parts}
@@ -101,12 +106,12 @@ def test_errors_of_the_differences(findings):
     assert fifty.standard_error == pytest.approx(math.hypot(1e-5, 3e-5), rel=0.02)
     assert hundred.standard_error == pytest.approx(math.hypot(1e-5, 4e-5), rel=0.02)
     assert endless.standard_error == pytest.approx(1e-5, rel=0.02)
-    assert endless.degrees == 3
+    assert endless.degrees == 9
 
 
 def test_the_standard_normal_baseline_is_its_own_noise(findings):
     (part,) = findings["kac_fig2_normal"].parts
-    assert part.measured.value == pytest.approx(dealt(0.0095) - floor(normal(), N_DRAWS), abs=5e-6)
+    assert part.measured.value == pytest.approx(dealt(0.0095, 10) - floor(normal(), N_DRAWS), abs=5e-6)
     assert part.measured.standard_error == pytest.approx(1e-5, rel=0.02)
     assert judged(findings["kac_fig2_normal"])[0] == "contradicted"
 

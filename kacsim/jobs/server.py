@@ -2,7 +2,7 @@
 
 It is started by Snakemake on Linux, ends with it, however that ends, and serves `client.py`. A job
 keeps its own process, log, status and benchmark; one whose client goes away is told to end. Jobs
-that compile share a process, one after the other, for kernels share most of what they are built from.
+that compile share a process, one after the other: kernels share most of what they are built from.
 """
 
 import atexit
@@ -107,9 +107,7 @@ class Server:
             return
         request = json.loads(message)
         if request["words"][:1] == ["compile"]:
-            child = self._idle_compiler(connection.fileno(), *descriptors)
-            sent = socket.send_fds(self.compilers[child], [message], descriptors)
-            self.compilers[child].sendall(message[sent:])
+            child = self._compile(message, descriptors, connection)
         else:
             child = os.fork()
             if child == 0:
@@ -118,6 +116,23 @@ class Server:
             os.close(descriptor)
         self.children[child] = connection
         self.waiting.register(connection, selectors.EVENT_READ)
+
+    def _compile(self, message, descriptors, connection):
+        """Hand a job to a compiler; return its process id."""
+        while True:
+            child = self._idle_compiler(connection.fileno(), *descriptors)
+            try:
+                sent = socket.send_fds(self.compilers[child], [message], descriptors)
+                self.compilers[child].sendall(message[sent:])
+                return child
+            except OSError:  # it has just ended
+                self._retire(child)
+
+    def _retire(self, child):
+        """Give a compiler no more jobs; one that is alive then ends."""
+        channel = self.compilers.pop(child)
+        self._forget(channel)
+        channel.close()
 
     def _idle_compiler(self, *of_client):
         """Return the process id of a compiler without work, a new one if there is none.
@@ -141,12 +156,12 @@ class Server:
 
     def _compiled(self, channel):
         """Send the status of a compiler's job to its client."""
-        status = channel.recv(16)
-        if not status:  # it has ended, which `_bury` will tell
-            self._forget(channel)
-            return
         child = next(one for one, of_child in self.compilers.items() if of_child is channel)
-        self._answer(self.children.pop(child), status)
+        status = channel.recv(16)
+        if status != b"0":  # after a failure or its own end it may have left anything
+            self._retire(child)
+        if status:  # else `_bury` tells the client
+            self._answer(self.children.pop(child), status)
 
     def _leave_server(self):
         """Make this child of the server a process like any other."""
@@ -181,19 +196,22 @@ class Server:
                 for target in range(3):  # who reads the job's output waits for its end
                     os.dup2(nothing, target)
                 channel.sendall(str(status).encode())
+                if status:
+                    break
         finally:
             os._exit(0)
 
     def _bury(self):
         """Send the status of every child that has ended to its client."""
-        while self.children or self.compilers:
-            child, status = os.waitpid(-1, os.WNOHANG)
+        while True:
+            try:
+                child, status = os.waitpid(-1, os.WNOHANG)
+            except ChildProcessError:  # there is none
+                return
             if child == 0:
                 return
             if child in self.compilers:
-                channel = self.compilers.pop(child)
-                self._forget(channel)
-                channel.close()
+                self._retire(child)
             if child in self.children:
                 code = os.waitstatus_to_exitcode(status)
                 code = code if code >= 0 else 128 - code
@@ -218,7 +236,7 @@ class Server:
             os.kill(child, signal.SIGTERM)
 
     def _forget(self, connection):
-        with contextlib.suppress(KeyError):
+        with contextlib.suppress(KeyError, ValueError):  # closed meanwhile
             self.waiting.unregister(connection)
 
 

@@ -142,15 +142,15 @@ def test_a_run_goes_on_without_its_server(served, tmp_path):
 
 
 def test_jobs_that_compile_share_a_process(served, tmp_path, monkeypatch):
-    """One after the other, with streams and status of their own; two at a time take two."""
+    """One after the other, with streams and status of their own; two at a time take two.
+
+    After a failure there is another one.
+    """
     holder, address, number = served
     monkeypatch.setenv("KACSIM_CACHE_DIR", str(tmp_path / "kernels"))
     unit = "techniques/integration.sphere_points.count_good"
     assert finish(["compile", unit, "--output", "good.txt"], address, tmp_path) == (0, "", "")
     (child,) = children(number)
-    status, out, err = finish(["compile", "nothing", "--output", "x.txt"], address, tmp_path)
-    assert (status, out) == (2, "")
-    assert "invalid choice: 'nothing'" in err
     for folder, where in ((tmp_path / "with", address), (tmp_path / "without", "/absent")):
         folder.mkdir()
         words = ["compile", "techniques/circles.circle_lattice", "--output", "lattice.txt"]
@@ -161,6 +161,13 @@ def test_jobs_that_compile_share_a_process(served, tmp_path, monkeypatch):
     two = [start([*words[:-1], name], address, tmp_path) for name in ("a.txt", "b.txt")]
     assert [job.wait(timeout=60) for job in two] == [0, 0]
     assert child in children(number)
+    for _ in range(3):
+        status, out, err = finish(["compile", "nothing", "--output", "x.txt"], address, tmp_path)
+        assert (status, out) == (2, "")
+        assert "invalid choice: 'nothing'" in err
+    until(lambda: not children(number))
+    assert finish(["compile", unit, "--output", "good.txt"], address, tmp_path) == (0, "", "")
+    (child,) = children(number)
     holder.kill()
     until(lambda: gone(number) and gone(child))
 

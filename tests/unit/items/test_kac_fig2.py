@@ -56,7 +56,9 @@ def dealt(value, n_replicates):
     law = wide(eq_8(2.0))
     drawn = (1.0 - value) * law
     drawn[0] += value
-    spread = np.sqrt(np.maximum(drawn * (1.0 - drawn), 1e-20) / N_DRAWS * (1.0 - 1.0 / n_replicates))
+    spread = np.sqrt(
+        np.maximum(drawn * (1.0 - drawn), 1e-20) / N_DRAWS * (1.0 - 1.0 / n_replicates)
+    )
     return 0.5 * stats.foldnorm(np.abs(drawn - law) / spread, scale=spread).mean().sum()
 
 
@@ -89,7 +91,10 @@ def test_differences_to_the_line(findings):
     line = dealt(0.0095, 10)
     endless = line - floor(eq_8(2.0), N_DRAWS)
     wanted = {
-        "kac_fig2_bird_larger_n": {"N = 100": line - dealt(0.0093, 4), "N = ∞, exact draws": endless},
+        "kac_fig2_bird_larger_n": {
+            "N = 100": line - dealt(0.0093, 4),
+            "N = ∞, exact draws": endless,
+        },
         "kac_fig2_poisson": {
             "N = 50": line - dealt(0.0092, 4),
             "N = 100": line - dealt(0.0091, 4),
@@ -111,7 +116,9 @@ def test_errors_of_the_differences(findings):
 
 def test_the_standard_normal_baseline_is_its_own_noise(findings):
     (part,) = findings["kac_fig2_normal"].parts
-    assert part.measured.value == pytest.approx(dealt(0.0095, 10) - floor(normal(), N_DRAWS), abs=5e-6)
+    assert part.measured.value == pytest.approx(
+        dealt(0.0095, 10) - floor(normal(), N_DRAWS), abs=5e-6
+    )
     assert part.measured.standard_error == pytest.approx(1e-5, rel=0.02)
     assert judged(findings["kac_fig2_normal"])[0] == "contradicted"
 

@@ -51,10 +51,7 @@ def reduce(samples, settings):
     )
     n_draws = np.array([_kac.n_draws_of(case) for case in grid.values()])
     intervals = np.array(
-        [
-            [tail.clopper_pearson(c, n) for c in row]
-            for n, row in zip(n_draws, counts, strict=True)
-        ]
+        [[tail.clopper_pearson(c, n) for c in row] for n, row in zip(n_draws, counts, strict=True)]
     )
     described, dims = store.described, ("series", "threshold")
     return xr.Dataset(

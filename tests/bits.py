@@ -6,7 +6,8 @@ python tests/bits.py --printed report.html
 
 The first draws the cases under the circumstances of the process and prints, as JSON, the digest of
 each, and those of what the mathematical libraries give, which are not promised. With `--assembly`,
-and an empty `KACSIM_CACHE_DIR`, it also tells what the kernels call and what in them is contracted.
+and an empty `KACSIM_CACHE_DIR`, it also tells what the kernels call, what in them is contracted and
+what counts references.
 The second prints the settings of the environment that turn off what is chosen by the processor, a
 line each; the third what a report prints, but for its pictures and the versions.
 """
@@ -24,6 +25,7 @@ from pathlib import Path
 
 import numba
 import numpy as np
+import references
 from numba.core.dispatcher import Dispatcher
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -111,6 +113,20 @@ def libraries():
     return {name: digest({name: ((), values, {})}) for name, values in found.items()}
 
 
+def counted():
+    """Return name -> what counts references in loops, of the kernels that do."""
+    found = {}
+    for name, kernel in kernels().items():
+        here = [
+            one
+            for llvm in kernel.inspect_llvm().values()
+            for one in references.counted_in_loops(llvm)
+        ]
+        if here:
+            found[name] = here
+    return found
+
+
 def found(assembly):
     """Return what the script prints."""
     told = {"digests": digests(), "libraries": libraries()}
@@ -119,6 +135,12 @@ def found(assembly):
         texts = {
             name: "\n".join(kernel.inspect_asm().values()) for name, kernel in kernels().items()
         }
+        told["counted"] = counted()
+        kinds = references.borrowers()
+        told["borrowers"] = sum(map(bool, kinds.values()))
+        told["lent"] = [
+            name for name, found in kinds.items() if any(map(references.holds_an_array, found))
+        ]
         told["sizes"] = {name: len(text) for name, text in texts.items()}
         told["calls"] = {name: calls(text) for name, text in texts.items() if calls(text)}
         told["contracted"] = {

@@ -6,19 +6,13 @@ An example of a new algorithm of Kac's model: docs/architecture.md walks through
 import math
 
 import numpy as np
-from numba import int64
 
-from kacsim.kac.model import (
-    collide,
-    copy_state,
-    growing,
-    initial_velocity,
-    replay,
-    signed_root,
-)
+from kacsim.kac import bird
+from kacsim.kac.model import collide, initial_velocity
 from kacsim.kac.moments import INITIAL_SQUARE, gain
-from kacsim.kernels.jit import kernel
-from kacsim.variates import failures_before_success, gap_scale, index_below, pair_below, uniform
+from kacsim.kac.tape import ancestral_draws
+from kacsim.kernels.jit import allocating, inlined, kernel
+from kacsim.variates import gap_scale, pair_below, uniform
 
 
 def arguments(*, n_particles, time, collision_rate, laziness):
@@ -58,38 +52,28 @@ def forward(velocities, own, n_particles, n_picked, chance, stream):
     return simulated
 
 
-@growing
-@kernel
-def ancestral(velocities, own, n_particles, n_picked, chance, stream, first, second, energy):
-    """Draw v_1(t) from the ancestors of particle 1 only; same law and parameters as `forward`."""
-    start = stream.copy()
-    pairs = 0.5 * n_particles * (n_particles - 1.0)
-    simulated = 0
-    for draw in range(velocities.size):
-        copy_state(stream, start)
-        n, members, touched, left = 0, 1, 0, n_picked
-        while True:
-            inner = 0.5 * members * (members - 1.0)
-            reach = inner + members * float(n_particles - members)
-            left -= failures_before_success(gap_scale(chance * reach / pairs), stream) + 1
-            if left < 0:
-                break
-            if n == first.size:
-                copy_state(start, stream)
-                return draw, simulated
-            i, j = index_below(members, stream), members
-            if uniform(stream) * reach < inner:
-                j = index_below(members - 1, stream)
-                j += int64(j >= i)
-            else:
-                members += 1
-            first[n], second[n] = i, j
-            touched += int64(i == 0) + int64(j == 0)
-            n += 1
-        velocities[draw] = signed_root(replay(energy, members, first, second, n, stream), stream)
-        own[draw] = touched
-        simulated += n
-    return velocities.size, simulated
+@allocating
+def prepare(arguments, most):
+    """Return the scales of the gaps between collisions that touch s ancestors, 0 < s < `most`.
+
+    A pick does so with the chance of a collision times that of the pair.
+    """
+    n_particles, _, chance = arguments
+    size = float(n_particles)
+    scales = np.zeros(min(n_particles + 1, most))
+    for s in range(1, scales.size):
+        scales[s] = gap_scale(chance * s * (2.0 * size - s - 1.0) / (size * (size - 1.0)))
+    return scales
+
+
+@inlined
+def history(arguments, scales, tape, start, root, stream):
+    """Find the collisions of one draw: Bird's, with longer gaps between them."""
+    n_particles, n_picked, _ = arguments
+    return bird.history((n_particles, n_picked), scales, tape, start, root, stream)
+
+
+ancestral = ancestral_draws(prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate, laziness):

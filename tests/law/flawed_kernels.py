@@ -13,6 +13,7 @@ from kacsim.variates import (
     failures_before_success,
     gap_scale,
     index_below,
+    maxwell_speed,
     pair_below,
     squared_cosine,
     uniform,
@@ -20,6 +21,14 @@ from kacsim.variates import (
 
 MOST = 4096  # collisions and ancestors of one history
 compiled = numba.njit(error_model="numpy")
+
+
+@compiled
+def share(energy, i, j, stream):
+    """Share the energy of a pair as a rotation by a uniform angle does."""
+    total = energy[i] + energy[j]
+    energy[i] = total * squared_cosine(stream)
+    energy[j] = total - energy[i]
 
 
 @compiled
@@ -49,9 +58,9 @@ def poisson(velocities, own, n_particles, mean_own, pair_rate, stream, forget_in
                 n += 1
             left -= exponential(stream) / total
         for i in range(n_particles):
-            energy[i] = model.initial_energy(stream)
+            energy[i] = maxwell_speed(stream) ** 2
         for event in range(n - 1, -1, -1):
-            model.share(energy, first[event], second[event], stream)
+            share(energy, first[event], second[event], stream)
         velocities[draw] = model.signed_root(energy[0], stream)
         own[draw] = touched
 
@@ -82,7 +91,7 @@ def nanbu_sequential(velocities, own, n_particles, steps, probability, stream, f
                     n += 1
             known[:] = found
         for i in range(n_particles):
-            energy[i] = model.initial_energy(stream)
+            energy[i] = maxwell_speed(stream) ** 2
         for event in range(n - 1, -1, -1):
             i, j = first[event], second[event]
             energy[i] = (energy[i] + energy[j]) * squared_cosine(stream)
@@ -119,8 +128,8 @@ def bird(velocities, own, n_particles, n_collisions, stream, long_gap):
             touched += int(i == 0) + int(j == 0)
             n += 1
         for i in range(members):
-            energy[i] = model.initial_energy(stream)
+            energy[i] = maxwell_speed(stream) ** 2
         for event in range(n - 1, -1, -1):
-            model.share(energy, first[event], second[event], stream)
+            share(energy, first[event], second[event], stream)
         velocities[draw] = model.signed_root(energy[0], stream)
         own[draw] = touched

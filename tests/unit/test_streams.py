@@ -122,6 +122,14 @@ def test_states_are_compared_by_the_words_that_were_taken():
         outputs(before, 1)
 
 
+def test_a_copy_goes_on_from_the_same_place():
+    stream = streams.new_stream(3, "copy")
+    outputs(stream, 77)
+    copy = np.zeros_like(stream)
+    streams.copy_state(stream, copy)
+    assert outputs(copy, 400) == outputs(stream, 400)
+
+
 def test_lanes_of_all_streams_are_distinct():
     """500 neighbours' 4000 states of four words, none of which occurs twice."""
     found = [streams.new_stream(k // 50, "case", k % 50)[: streams.PLACE] for k in range(500)]

@@ -1,7 +1,7 @@
 """Expected processor time: amounts of work times the nanoseconds that the benchmark fitted.
 
-`kacsim benchmark --fit` writes the file that is read here (`kacsim.benchmark.fitting`). Nothing heavy is
-imported: the plan reads it at every start of Snakemake.
+`kacsim benchmark --fit` writes the file that is read here (`kacsim.benchmark.fitting`). Nothing
+heavy is imported: the plan reads it at every start of Snakemake.
 """
 
 import functools

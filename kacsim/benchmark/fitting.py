@@ -20,10 +20,10 @@ from kacsim.cases import tiny_cases
 from kacsim.jobs import sampling, times
 from kacsim.kernels.provenance import versions
 
-ENOUGH = 0.12  # seconds: what a case is cut to
-MOST = 7  # cases of a kind that are timed
+ENOUGH = 0.1  # seconds: what a case is cut to
+MOST = 5  # cases of a kind that are timed
 FEWER = 8  # by which draws are cut once more, so that starting and drawing come apart
-REPEATS = 4
+REPEATS = 3
 DIGITS = 4
 TRAPS = ("trap", "trap_fraction", "trap_energy")  # samplers whose trees have a fitted size
 DOUBT = {"case": 0.01, "call": 0.005}  # weights of a guess of zero beside one measured time

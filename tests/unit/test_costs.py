@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from kacsim import cli, costs, plan
+from kacsim.benchmark import fitting
 from kacsim.boltzmann import bkw
 from kacsim.boltzmann import work as trees
 from kacsim.cases import make_case, tiny_cases
-from kacsim.benchmark import fitting
 from kacsim.jobs import expected
 from kacsim.kac import ancestors, work
 from kacsim.kac.constants import RATE

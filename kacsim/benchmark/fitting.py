@@ -7,6 +7,7 @@ the nodes that they had. The file that is written is `kacsim.costs.FILE`.
 
 import dataclasses
 import json
+import multiprocessing
 import time
 from collections import defaultdict
 
@@ -68,7 +69,12 @@ def fit(cases, items_of, show=print, folder="."):
     for case in tiny_cases():
         if case.kind not in found:
             found[case.kind].append(dataclasses.replace(case, n_draws=100_000, n_replicates=100))
-    rows = {kind: measured(found[kind], show) for kind in sorted(found)}
+    # A process of its own for each kind, as jobs have.
+    with multiprocessing.get_context().Pool(1, maxtasksperchild=1) as one:
+        rows = {}
+        for kind in sorted(found):
+            rows[kind] = one.apply(measured, [found[kind]])
+            show(f"{kind}: {told(coefficients(rows[kind]))}")
     trees = {name: tree_shape(rows, name) for name in TRAPS}
     content = {
         "machine": processor(),
@@ -113,7 +119,12 @@ def spread(cases):
     return [ordered[k] for k in places]
 
 
-def measured(cases, show):
+def told(terms):
+    """Return nanoseconds by term as words, those of nothing left out."""
+    return ", ".join(f"{term} {each:.3g} ns" for term, each in terms.items() if each > 0.0)
+
+
+def measured(cases):
     """Return a list of Timed: cases of one kind, each cut to a short time, and with fewer draws."""
     sampling.load(cases[0])
     rows = []
@@ -124,7 +135,6 @@ def measured(cases, show):
             fewer = max(1, getattr(long.case, size) // FEWER)
             if fewer < getattr(long.case, size):
                 rows.append(timed(dataclasses.replace(long.case, **{size: fewer})))
-    show(f"{cases[0].kind}: {len(rows)} small cases")
     return rows
 
 

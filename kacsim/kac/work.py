@@ -31,16 +31,24 @@ def history(span, n_particles):
 
 
 def of_velocities(parameters):
-    """Return the work of one draw of v_1."""
+    """Return the work of one draw of v_1.
+
+    Returns
+    -------
+    dict: draw, 1; particle, those drawn at time 0; collision; own, the collisions of particle 1;
+    step, and busy, steps in which there are collisions; visit, particles times steps
+    """
     n, span = parameters["n_particles"], parameters["collision_rate"] * parameters["time"]
     step = parameters.get("time_step")
     steps = parameters["time"] / step if step else 0.0
     if parameters["engine"] == "forward":
-        each = {"draw": 1.0, "particle": n, "collision": 0.5 * n * span}
-        return each | {"step": steps, "visit": n * steps}
-    if steps:  # a step multiplies the ancestors by 1 + rate step at most
-        span = steps * math.log1p(span / steps)
-    return {"draw": 1.0, "collision": history(span, n), "step": steps}
+        collisions = 0.5 * n * span
+        each = {"draw": 1.0, "particle": n, "collision": collisions, "visit": n * steps}
+        return each | {"step": steps, "busy": min(steps, collisions)}
+    # A step multiplies the ancestors by 1 + rate step at most.
+    collisions = history(steps * math.log1p(span / steps) if steps else span, n)
+    each = {"draw": 1.0, "own": span, "collision": collisions}
+    return each | {"step": steps, "busy": min(steps, collisions)}
 
 
 def _steps(n_particles, tolerance, energy=None):

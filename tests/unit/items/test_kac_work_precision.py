@@ -127,7 +127,7 @@ def test_the_best_of_finite_n_has_the_least_error_of_all(dataset):
         endless = float(dataset.moment_noise) * math.sqrt(float(dataset.endless_seconds) / budget)
         assert float(here.endless_error) == pytest.approx(endless)
     last = dataset.isel(budget=-1)
-    least = dataset.isel(point=int(dataset.moment.argmin()))
+    least = dataset.isel(point=int(np.argmin(dataset.moment.values)))
     assert float(last.best_error) >= float(least.moment)
     assert float(last.best_n) == float(least.n_particles)
     assert str(last.best_engine.item()) == "ancestral"

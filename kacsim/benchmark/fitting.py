@@ -22,7 +22,7 @@ from kacsim.jobs import sampling, times
 from kacsim.kernels.provenance import versions
 
 ENOUGH = 0.1  # seconds: what a case is cut to
-MOST = 5  # cases of a kind that are timed
+MOST = 6  # cases of a kind that are timed
 FEWER = 8  # by which draws are cut once more, so that starting and drawing come apart
 REPEATS = 3
 DIGITS = 4
@@ -113,10 +113,19 @@ def size_of(case):
 
 
 def spread(cases):
-    """Return at most `MOST` cases of a kind, spread by the work of one draw."""
-    ordered = sorted(cases, key=size_of)
-    places = np.linspace(0, len(ordered) - 1, min(MOST, len(ordered))).round().astype(int)
-    return [ordered[k] for k in places]
+    """Return at most `MOST` cases of a kind, with every term as small and as large as in any.
+
+    After the smallest it is always the one that is farthest from those before, in logarithms.
+    """
+    works = [case.sampler.work(case.parameters) for case in cases]
+    places = np.log1p([list(work.values()) for work in works])
+    chosen = [int(np.argmin([size_of(case) for case in cases]))]
+    while len(chosen) < MOST:
+        apart = np.abs(places[:, None] - places[chosen]).max(axis=-1).min(axis=-1)
+        if not apart.max() > 0.0:
+            break
+        chosen.append(int(apart.argmax()))
+    return [cases[k] for k in chosen]
 
 
 def told(terms):

@@ -131,6 +131,23 @@ def test_the_shape_of_trees_is_found_again():
     assert fitting.tree_shape(timed, "trap") == pytest.approx(shape, rel=1e-3)
 
 
+def test_cases_are_chosen_at_the_ends_of_every_term():
+    """Of 80 cases 6, the largest and smallest N, time and number of steps among them."""
+    nanbu = {"engine": "forward", "algorithm": "nanbu_sequential"}
+    found = [
+        velocities(**nanbu, n_particles=n, time=time, time_step=time / steps)
+        for n in (5, 6, 7, 8, 50)
+        for time in (0.2, 0.4, 0.6, 3.0)
+        for steps in (4, 5, 6, 700)
+    ]
+    chosen = [case.parameters for case in fitting.spread(found)]
+    assert len(chosen) == 6
+    assert {5, 50} <= {p["n_particles"] for p in chosen}
+    assert {0.2, 3.0} <= {p["time"] for p in chosen}
+    assert {4, 700} <= {round(p["time"] / p["time_step"]) for p in chosen}
+    assert fitting.spread([found[0]] * 9) == [found[0]]
+
+
 def test_cases_are_cut_to_a_short_time(monkeypatch):
     """With a clock that says what a case takes: whole replicates come last."""
     monkeypatch.setattr(

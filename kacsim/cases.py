@@ -8,12 +8,11 @@ import math
 import shlex
 from dataclasses import dataclass
 
-from kacsim import checks
+from kacsim import checks, costs
 from kacsim.samplers import registry
 
 OUTSIDE = "what a case decides is in its recipe and in the names of its files"
 
-WORK_SECONDS = 3e-8  # measured: a collision, or a node of a tree, with all that belongs to it
 BASE_MEGABYTES = 350
 WHOLE = (1, 1)  # the shard that is all of a case
 
@@ -93,10 +92,21 @@ class Case:
             return f"results/samples/{self.id}.nc"
         return "results/shards/{}.{}of{}.nc".format(self.id, *self.shard)
 
+    @property
+    def kind(self):
+        """Return the name that the case's costs have."""
+        return costs.kind_of(self.name, self.parameters)
+
+    def amounts(self):
+        """Return what the draws take, term -> amount: of the whole case, of each call, of all."""
+        rows = len(self.replicates)
+        each = {"call": 1.0} | self.sampler.work(self.parameters)
+        calls = {"case": 1.0, "call": rows * each.pop("call")}
+        return calls | {term: amount * rows * self.n_draws for term, amount in each.items()}
+
     def seconds(self):
-        """Return roughly how long the kernels take: the order of jobs, their size and limits."""
-        draws = float(self.n_draws * len(self.replicates))
-        return WORK_SECONDS * draws * self.sampler.cost(self.parameters)
+        """Return how long the kernels should take: the order of jobs, their size and limits."""
+        return costs.seconds(self.kind, self.amounts())
 
     def minutes(self):
         """Return the time limit for a scheduler."""

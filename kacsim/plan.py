@@ -121,6 +121,8 @@ class Plan:
         common = {key: self.config[key] for key in COMMON}
         settings = common | self.config[name]
         uses = items.uses(name)
+        if items.costs(name):
+            settings["costs"] = items.costs(name)
         if uses:
             settings["items"] = {used: self._settings_of(used) for used in uses}
         return settings
@@ -190,30 +192,13 @@ class Plan:
         """Return the case that draws one shard, from the ``case`` and ``number`` of its file."""
         return self.shards[wildcards.case][int(wildcards.number) - 1]
 
-    def table(self, chosen):
-        """Return a table of cases: the job that draws each, draws, expected seconds and items."""
-        job_of = {case.id: batch.id for batch in self.batches for case in batch.cases}
-        job_of |= {name: f"{len(parts)} shards" for name, parts in self.shards.items()}
-        items_of = {}
+    def items_of(self):
+        """Return case id -> list of the items that need the case."""
+        found = {}
         for name, cases in self.cases_of.items():
             for case in cases:
-                items_of.setdefault(case.id, []).append(name)
-        rows = [("stage", "seconds", "draws", "job", "case", "for")]
-        for case in sorted(chosen, key=lambda case: -case.seconds()):
-            amount = f"{case.n_replicates} x {case.n_draws}"
-            job, wanted = job_of[case.id], ", ".join(items_of[case.id])
-            rows.append(("sample", f"{case.seconds():.2g}", amount, job, case.id, wanted))
-        widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]) - 1)]
-        lines = ["  ".join(map(str.ljust, row, (*widths, 0))) for row in rows]
-        seconds = sum(case.seconds() for case in chosen)
-        split = [len(self.shards[case.id]) + 1 for case in chosen if case.id in self.shards]
-        jobs = len({job_of[case.id] for case in chosen if case.id not in self.shards}) + sum(split)
-        wanted = len({name for case in chosen for name in items_of[case.id]})
-        lines.append(
-            f"{len(chosen)} cases in {jobs} jobs, about {seconds:.0f} s of one core in kernels; "
-            f"then {wanted} items to reduce and draw, 2 to 3 s each"
-        )
-        return "\n".join(lines)
+                found.setdefault(case.id, []).append(name)
+        return found
 
     def settings_json(self, name):
         """Return an item's settings as JSON: the argument of the later stages."""

@@ -113,7 +113,8 @@ class Sampler:
     kernels : str, module of the family that holds the kernels; "" if each variant has its own
     entries : callable(parameters) -> names of that module that the sampler looks up
     check : callable(**parameters) that yields the problems of values that are each right
-    cost : callable(parameters) -> work of one draw, in collisions or nodes of a tree
+    work : callable(parameters) -> dict of what one draw takes, such as its collisions or nodes;
+        ``call`` is how often a replicate starts to draw. `kacsim.costs` knows how long each takes
     replicate_megabytes : callable(parameters) -> memory of one replicate's counts
     by_replicate : bool, replicates are independent of each other: they can be drawn in shards
     variants : tuple of Variant, the values of the first parameter
@@ -131,7 +132,7 @@ class Sampler:
     kernels: str = ""
     entries: Callable = lambda parameters: ()
     check: Callable | None = None
-    cost: Callable = lambda parameters: 6.0
+    work: Callable = lambda parameters: {"draw": 1.0}
     replicate_megabytes: Callable = lambda parameters: REPLICATE_MEGABYTES
     by_replicate: bool = True
     streaming: str = ""

@@ -1,9 +1,9 @@
 """The samplers of the Boltzmann paper, declared: probes by trees, and the trap."""
 
 import functools
-import math
 
 from kacsim.boltzmann.constants import BREATHING, COUPLING, LARGEST_PHASE, MAX_NODES
+from kacsim.boltzmann.work import of_bkw, of_extinction, of_one_tree, of_trap
 from kacsim.checks import (
     Problem,
     at_least,
@@ -29,14 +29,6 @@ def grid(name, short, meaning, check=not_negative):
 def quantity(name, short, meaning, check, default):
     """Return a real parameter with a default."""
     return Parameter(name, short, meaning, check, default, kind=real)
-
-
-def tree_cost(parameters, axis, growth=1.0):
-    """Return the nodes of one realization at every probe, a tree growing as exp(growth t)."""
-    many = parameters.get("oversampling", 1.0)
-    growth *= 2.0 * (max(many) if isinstance(many, (list, tuple)) else many) - 1.0
-    nodes = sum(math.exp(min(30.0, growth * time)) for time in parameters["time"])
-    return len(parameters[axis]) * nodes
 
 
 def amplitude(name, value):
@@ -121,7 +113,7 @@ INITIAL = initial_state(*STARTS, default="bkw")
 TRAP = (RADII, TRAP_TIMES, INITIAL, EPS, PHASE, STRENGTH, *SAMPLING_LAWS, BUDGET)
 
 
-def probing(name, draws, kernels, parameters, tiny, growth=1.0):
+def probing(name, draws, kernels, parameters, tiny, work=None):
     """Return the declaration of a sampler at a grid of probes: its first parameter that is a list.
 
     Its kernels' module has a function of the sampler's name that binds parameters to a probe.
@@ -135,13 +127,14 @@ def probing(name, draws, kernels, parameters, tiny, growth=1.0):
         kernels=kernels,
         entries=lambda _: (name,),
         streaming="sample",
-        cost=functools.partial(tree_cost, axis=axis, growth=growth),
+        work=work or functools.partial(of_bkw, axis=axis),
     )
 
 
 def probing_trap(name, draws):
-    """Return the declaration of a sampler in the trap, whose trees grow half as fast."""
-    return probing(name, draws, "trap_tree", TRAP, {"radius": [1.0], "time": [1.0]}, 0.5)
+    """Return the declaration of a sampler in the trap, with all its laws."""
+    tiny = {"radius": [1.0], "time": [1.0]}
+    return probing(name, draws, "trap_tree", TRAP, tiny, functools.partial(of_trap, name=name))
 
 
 SAMPLERS = (
@@ -162,7 +155,8 @@ SAMPLERS = (
             ),
             Parameter("time", "t", "time t, in mean collision times", not_negative, kind=real),
         ),
-        ({"speed": 1.0, "time": 1.0},), kernels="literal", by_replicate=False,
+        ({"speed": 1.0, "time": 1.0},), kernels="literal", work=of_one_tree,
+        by_replicate=False,
     ),
     probing(
         "bkw_literal", "estimates of f(c; t) by plain recursion in vectors", "literal",
@@ -176,7 +170,7 @@ SAMPLERS = (
             grid("time", "t", "times t, in 1 / (alpha f0)"),
             BUDGET,
         ),
-        {"majorant": [1.0], "time": [1.0]},
+        {"majorant": [1.0], "time": [1.0]}, of_extinction,
     ),
     probing_trap("trap", "estimates of f(r; c; t) in the trap, Algorithms 5 and 6"),
     probing_trap("trap_fraction", "estimates of the fraction beyond a radius, Algorithm 7"),
@@ -184,7 +178,7 @@ SAMPLERS = (
     probing(
         "trap_literal", "estimates in the trap by plain recursion in vectors", "literal_trap",
         (INITIAL, RADII, LITERAL_TIMES, EPS, STRENGTH),
-        {"radius": [1.0], "time": [1.0]}, 0.5,
+        {"radius": [1.0], "time": [1.0]}, functools.partial(of_trap, name="trap"),
     ),
     probing(
         "bkw_moment", "estimates of f(c; t)/M at velocities drawn from M", "bkw_tree",

@@ -18,9 +18,14 @@ def add_item(parser):
     parser.add_argument("--item", help="the cases of one item only")
 
 
+def checked_plan(arguments):
+    """Return the plan of the configuration."""
+    return plan.Plan(plan.read_config(*arguments.config), arguments.config)
+
+
 def planned(arguments):
     """Return (plan, cases of the wanted item or of all items)."""
-    checked = plan.Plan(plan.read_config(*arguments.config), arguments.config)
+    checked = checked_plan(arguments)
     if arguments.item is None:
         return checked, list(checked.cases.values())
     if arguments.item not in checked.cases_of:

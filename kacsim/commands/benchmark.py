@@ -1,5 +1,7 @@
 """Measure the kernels, as ratios in one run."""
 
+from kacsim.commands import _shared
+
 EXAMPLE = "benchmark"
 
 
@@ -14,10 +16,22 @@ def add(parser):
     parser.add_argument(
         "--peers", action="store_true", help="Bird's algorithm in C, plain numba and numpy"
     )
+    parser.add_argument(
+        "--fit",
+        action="store_true",
+        help="time small cases of every sampler, and keep what `plan` expects by them",
+    )
+    _shared.add_config(parser)
 
 
 def run(arguments):
-    """Print the measurements of the kernels."""
+    """Print the measurements of the kernels, or fit the costs of cases."""
+    if arguments.fit:
+        from kacsim.benchmark import fitting
+
+        checked = _shared.checked_plan(arguments)
+        fitting.fit(checked.cases.values(), checked.cases_of)
+        return
     from kacsim import benchmark
 
     parts = [part for part in ("floors", "peers") if getattr(arguments, part)]

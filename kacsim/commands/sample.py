@@ -55,10 +55,10 @@ def run_all(requests):
         files.check_writable(arguments.output)
     for arguments, case in zip(requests, chosen, strict=True):
         sampling.load(case)
-        start = time.perf_counter()
+        start = time.process_time()
         with progress(case) as advance:
             variables = sampling.run(case, advance)
-        print(times.drawn_sentence(case, time.perf_counter() - start), flush=True)
+        print(times.drawn_sentence(case, time.process_time() - start), flush=True)
         _shared.write_sample(variables, arguments.output, case)
 
 

@@ -41,6 +41,11 @@ def uses(name):
     return getattr(load(name), "USES", ())
 
 
+def costs(name):
+    """Return the measured costs that an item shows, which enter its settings; None without any."""
+    return getattr(load(name), "costs", lambda: None)()
+
+
 @functools.cache
 def published():
     """Return claim id -> published entry, from the files of reports/published/, one a text."""

@@ -28,7 +28,8 @@ def _case(settings, algorithm, n_particles, time_step):
     return _kac.velocity_case(settings, algorithm, n_particles, time_step, **size)
 
 
-def _particle_grid(settings):
+def particle_grid(settings):
+    """Return place -> case: every algorithm at every N, those with a step at one."""
     return {
         (a, n): _case(settings, algorithm, n_particles, settings["fixed_time_step"])
         for a, algorithm in enumerate(ALGORITHMS)
@@ -36,7 +37,8 @@ def _particle_grid(settings):
     }
 
 
-def _step_grid(settings):
+def step_grid(settings):
+    """Return place -> case: the algorithms with a step at each of them, at one N."""
     n_particles = settings["fixed_n_particles"]
     return {
         (a, s): _case(settings, algorithm, n_particles, step)
@@ -61,14 +63,14 @@ def _forward_case(settings):
 
 def cases(settings):
     """Return all algorithms against N, those with a step against it, and one forward count."""
-    grids = _particle_grid(settings), _step_grid(settings)
+    grids = particle_grid(settings), step_grid(settings)
     return [*(case for grid in grids for case in grid.values()), _forward_case(settings)]
 
 
 def reduce(samples, settings):
     """Return measured and exact fourth moments, and the collisions that Poisson spares."""
-    by_n = _moments(samples, _particle_grid(settings), ALGORITHMS, settings["n_particles"])
-    by_step = _moments(samples, _step_grid(settings), STEPPED, settings["time_step"])
+    by_n = _moments(samples, particle_grid(settings), ALGORITHMS, settings["n_particles"])
+    by_step = _moments(samples, step_grid(settings), STEPPED, settings["time_step"])
     described, variables = store.described, {}
     names = ("moment", "moment_error", "moment_exact")
     texts = ("mean of v_1**4", "standard error of the mean of v_1**4", "exact mean of v_1**4")
@@ -106,7 +108,7 @@ def _moments(samples, grid, rows, columns):
 def _step_tvn(samples, settings):
     """Return the mean TVN against the step, with its errors."""
     table = np.full((2, len(STEPPED), len(settings["time_step"])), np.nan)
-    for place, case in _step_grid(settings).items():
+    for place, case in step_grid(settings).items():
         values = _kac.tvn(samples[case.id], settings, settings["bin_width"])
         mean = estimate.of_replicates(values)
         table[(slice(None), *place)] = mean.value, mean.standard_error

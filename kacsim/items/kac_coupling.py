@@ -4,7 +4,7 @@ import math
 
 from kacsim.cases import make_case
 from kacsim.items._lazy import np, plotting, store, xr
-from kacsim.kac.constants import MEAN_ENERGY
+from kacsim.kac.contraction import contraction_rate, predicted_steps
 
 SUMMARY = ("mean", "error", "spread", "least", "most")
 
@@ -25,27 +25,6 @@ def cases(settings):
     """Return the cases against N and those against epsilon."""
     by_n, by_tolerance = _grids(settings)
     return [*by_n, *by_tolerance]
-
-
-def contraction_rate(n_particles):
-    """Return by how much E sum (x_j - y_j)**2 of two energy vectors falls per step, relatively.
-
-    A step replaces (d_p, d_q) by (a, 1 - a)(d_p + d_q) with E a**2 = 3/8; averaged over pairs,
-    with sum d = 0, the square sum falls by the share (N + 2) / (2 N (N - 1)).
-    """
-    return (n_particles + 2.0) / (2.0 * n_particles * (n_particles - 1.0))
-
-
-def predicted_steps(n_particles, tolerance):
-    """Return the steps after which the mean squared distance reaches tolerance**2.
-
-    The distance of energies stands for that of velocities (D**2 ~ sum d**2 / (4 x), x ~ E/N),
-    and the mean for the typical value; by Jensen's inequality the slope in log(1/tolerance)
-    bounds that of the true coupling time from above.
-    """
-    energy = MEAN_ENERGY * n_particles
-    start = n_particles * energy / 2.0  # two corners: d = +-E, x = E/N
-    return math.log(start / tolerance**2) / -math.log1p(-contraction_rate(n_particles))
 
 
 def reduce(samples, settings):

@@ -42,6 +42,17 @@ def collect(folder=".", since=0.0):
     return {stage: sorted(jobs, key=lambda job: -job[1]) for stage, jobs in found.items() if jobs}
 
 
+def cases_of(folder="."):
+    """Return job -> number of cases that it drew, from the logs of a run."""
+    root = Path(folder) / "logs"
+    return {
+        str(file.relative_to(root).with_suffix("")): len(
+            DRAWN.findall(file.read_text(encoding="utf-8"))
+        )
+        for file in root.rglob("*.log")
+    }
+
+
 def table(folder=".", since=0.0):
     """Return the summary as text: seconds per stage, share outside kernels, longest jobs."""
     stages = collect(folder, since)

@@ -4,8 +4,10 @@ import dataclasses
 import functools
 import math
 
-from kacsim.boltzmann.samplers import TREE, grid, tree_cost
+from kacsim.boltzmann.samplers import TREE, grid
+from kacsim.boltzmann.work import of_kac
 from kacsim.checks import Problem, count, falling, finite, not_negative, one_of, positive
+from kacsim.kac import work
 from kacsim.kac.constants import MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
 from kacsim.samplers import Parameter, Sampler, Variant, real, whole, whole_or_infinite
 
@@ -160,23 +162,6 @@ def kac_forward(*, n_particles, tolerance, energy=None):
     yield from kac_equilibrium(n_particles=n_particles, tolerance=finest, energy=energy)
 
 
-def readings_cost(parameters):
-    """Return the work of one draw: N steps of cost N for each digit, for eight rules."""
-    digits = max(1.0, -math.log10(min(parameters["tolerance"])))
-    return 3.5 * parameters["n_particles"] ** 2 * digits
-
-
-def coupling_cost(parameters):
-    """Return the work of one epsilon-perfect draw: N steps of cost N for each digit."""
-    digits = max(1.0, -math.log10(parameters["tolerance"]))
-    return 0.4 * parameters["n_particles"] ** 2 * digits
-
-
-def kac_cost(parameters):
-    """Return the work of one draw of v_1."""
-    return parameters["n_particles"] if parameters["engine"] == "forward" else 6.0
-
-
 TIME = Parameter("time", "t", "time t of the Kac paper", positive, kind=real)
 COLLISION_RATE = Parameter(
     "collision_rate", "rate", "collisions of one particle per time, sqrt(pi)/2 in the paper",
@@ -217,7 +202,7 @@ KAC = Sampler(
     engines=ENGINES,
     entries=lambda parameters: ("arguments", parameters["engine"]),
     check=kac,
-    cost=kac_cost,
+    work=work.of_velocities,
     tiny=({"n_particles": 4, "time": 1.0},),
 )  # fmt: skip
 EQUILIBRIUM = Sampler(
@@ -226,7 +211,7 @@ EQUILIBRIUM = Sampler(
     (N_PARTICLES, TOLERANCE, ENERGY),
     kernels="perfect",
     check=kac_equilibrium,
-    cost=coupling_cost,
+    work=work.of_coupling,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
 )
 CORNERS = Sampler(
@@ -235,7 +220,7 @@ CORNERS = Sampler(
     (N_PARTICLES, TOLERANCE),
     kernels="perfect",
     check=kac_equilibrium,
-    cost=coupling_cost,
+    work=work.of_corners,
     by_replicate=False,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
 )
@@ -255,7 +240,7 @@ READINGS = Sampler(
     ),
     kernels="readings",
     check=kac_readings,
-    cost=readings_cost,
+    work=work.of_readings,
     tiny=(
         {"n_particles": 4, "walk": "printed", "tolerance": [0.1, 0.01]},
         {"n_particles": 4, "walk": SINGLE, "tolerance": [0.1]},
@@ -267,7 +252,7 @@ FORWARD = Sampler(
     (N_PARTICLES, TOLERANCE, ENERGY),
     kernels="forward",
     check=kac_forward,
-    cost=coupling_cost,
+    work=work.of_coupling,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
 )
 PROBE = Sampler(
@@ -281,7 +266,7 @@ PROBE = Sampler(
     ),
     kernels="probe_tree",
     entries=lambda parameters: ("kac_probe",),
-    cost=functools.partial(tree_cost, axis="speed"),
+    work=of_kac,
     tiny=({"speed": [1.0], "time": [1.0]},),
 )
 SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, READINGS, FORWARD, PROBE)

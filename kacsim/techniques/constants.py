@@ -17,6 +17,7 @@ POWERS = (1, 2, 3, 4)  # of values, whose means are kept
 # What is summed over the particles that enter through a face; tangents are velocities.
 SUMS = ("number", "speed", "speed_2", "speed_4", "tangent_1", "tangent_2", "product", "squares")
 NUMBER, SPEED, SPEED_2, SPEED_4, TANGENT_1, TANGENT_2, PRODUCT, SQUARES = range(len(SUMS))
+REACH = 8.0  # thermal velocities from which particles of the outer gas come
 FACE, POSITION, VELOCITY = 0, 1, 4  # columns of a particle that is kept, the last two of three
 BLOCK = 65536  # values that are worked on at once where no kernel does it
 

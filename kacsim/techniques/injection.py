@@ -18,6 +18,7 @@ from kacsim.techniques.constants import (
     NUMBER,
     POSITION,
     PRODUCT,
+    REACH,
     SPEED,
     SPEED_2,
     SPEED_4,
@@ -29,7 +30,6 @@ from kacsim.techniques.constants import (
 )
 from kacsim.variates import exponential, half_normal, random_sign, uniform
 
-REACH = 8.0  # thermal velocities from which particles of the outer gas come
 POISSON_PIECE = 500.0  # exp(-mean) of a larger mean would be lost
 
 

@@ -1,7 +1,6 @@
 """The samplers of the chapter, declared."""
 
 import functools
-import math
 
 from kacsim.checks import (
     Problem,
@@ -16,6 +15,7 @@ from kacsim.checks import (
 )
 from kacsim.checks import three as three_values
 from kacsim.samplers import Parameter, Sampler, real, whole
+from kacsim.techniques import work
 from kacsim.techniques.constants import CLOSED, LAWS
 
 OUTSIDE = "a case carries every value that its declaration sets"
@@ -70,17 +70,6 @@ def several(name, short, meaning, check, whole_check=None):
     return Parameter(name, short, meaning, check, kind=whole, many=True, whole=whole_check)
 
 
-def points_cost(parameters):
-    """Return the uniforms that the points of every dimension take."""
-    return max(parameters["n_points"]) * sum(parameters.get("dimension", [6]))
-
-
-def circles_cost(parameters):
-    """Return the steps along the edges of all circles."""
-    span = math.log(parameters["largest"] / parameters["smallest"])
-    return parameters["n_edges"] * parameters["largest"] / span
-
-
 def tables_megabytes(parameters):
     """Return the memory of one replicate's counts by cell, table by table."""
     return TABLE_MEGABYTES * len(parameters.get("n_table", [1]))
@@ -114,7 +103,7 @@ SAMPLERS = (
     sampler(
         "inverse_transform", "values of a law through tables of several sizes",
         (law(), several("n_table", "table", "intervals of the tables", count)),
-        ({"law": "ramp", "n_table": [2]},), kernels="inverse_transform",
+        ({"law": "ramp", "n_table": [2]},), kernels="inverse_transform", work=work.of_tables,
     ),
     sampler(
         "inversion", "values of a law by its inverted cumulative function",
@@ -129,11 +118,11 @@ SAMPLERS = (
     sampler("identity", "values of f0 by the Gamma identity", (), ({},), kernels="identity"),
     sampler(
         "injection", "particles injected through the faces of a cuboid", GAS, (TINY_GAS,),
-        kernels="injection",
+        kernels="injection", work=work.of_injection,
     ),
     sampler(
         "outer_gas", "particles of an outer gas that fly into a cuboid", GAS, (TINY_GAS,),
-        kernels="injection",
+        kernels="injection", work=work.of_outer_gas,
     ),
     sampler(
         "weighted_particles", "particles injected from weighted representatives",
@@ -164,7 +153,8 @@ SAMPLERS = (
                 functools.partial(bounded, least=1, most=LARGEST_EDGE),
             ),
         ),
-        ({"dimension": [2], "edge": [2]},), kernels="integration", by_replicate=False,
+        ({"dimension": [2], "edge": [2]},), kernels="integration", work=work.of_lattices,
+        by_replicate=False,
     ),
     sampler(
         "circle_lattice", "volumes of circles on lattices of many sizes",
@@ -174,13 +164,13 @@ SAMPLERS = (
             Parameter("n_edges", "n", "number of lattices", LATTICES, kind=whole),
         ),
         ({"smallest": 2, "largest": 9, "n_edges": 3},), kernels="circles", check=edges_grow,
-        cost=circles_cost, by_replicate=False,
+        work=work.of_circles, by_replicate=False,
     ),
     sampler(
         "sphere_points", "volumes of spheres with random or quasi-random points",
         (word("generator", GENERATORS), DIMENSIONS, POINTS),
         tuple({"generator": name, "dimension": [2], "n_points": [2]} for name in GENERATORS),
-        kernels="integration", cost=points_cost,
+        kernels="integration", work=work.of_points,
         entries=lambda parameters: (f"count_{parameters['generator']}",),
     ),
     sampler(
@@ -189,6 +179,6 @@ SAMPLERS = (
             Parameter("exponent", "power", "exponent of 1 - x^2", not_negative, kind=real),
             POINTS,
         ),
-        ({"exponent": 0.3, "n_points": [2]},), kernels="integration", cost=points_cost,
+        ({"exponent": 0.3, "n_points": [2]},), kernels="integration", work=work.of_points,
     ),
 )  # fmt: skip

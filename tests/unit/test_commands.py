@@ -105,8 +105,10 @@ def test_plan_is_a_table_with_costs(capsys):
     assert cli.main(["plan", "--config", str(CONFIG), "--item", "kac_fig9"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].split() == ["stage", "seconds", "draws", "job", "case", "for"]
-    assert len(lines) == 1 + 2 + 1
     assert all("kac_fig9, kac_numbers" in line for line in lines[1:3])
+    assert lines[4].split() == ["item", "cases", "jobs", "in", "kernels", "seconds"]
+    assert lines[5].split()[0] == "kac_fig9"
+    assert len(lines) == 3 + 1 + 2 + 1 + 1
     assert lines[-1].startswith("2 cases in ")
 
 

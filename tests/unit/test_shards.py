@@ -10,7 +10,7 @@ import pytest
 from kacsim import cli, files, plan, store
 from kacsim.boltzmann import sampling as boltzmann_sampling
 from kacsim.cases import make_case, tiny_cases
-from kacsim.jobs import sampling, shards
+from kacsim.jobs import expected, sampling, shards
 from kacsim.kac import sampling as kac_sampling
 from kacsim.kernels.provenance import ROOT
 from kacsim.samplers import registry
@@ -105,7 +105,9 @@ def test_shards_are_a_partition_of_the_replicates(number):
     parts = case_of("kac").split(number)
     assert [k for part in parts for k in part.replicates] == list(range(5))
     assert {len(part.replicates) for part in parts} <= {5 // number, 5 // number + 1}
-    assert sum(part.seconds() for part in parts) == pytest.approx(case_of("kac").seconds())
+    whole = case_of("kac")
+    for term in {*whole.amounts()} - {"case"}:
+        assert sum(part.amounts()[term] for part in parts) == pytest.approx(whole.amounts()[term])
     assert len({part.output() for part in parts}) == number
 
 
@@ -160,8 +162,9 @@ def test_samplers_of_runs_are_not_sharded():
 def test_the_table_of_cases_tells_the_shards():
     some = plan.Plan(plan.read_config(CONFIG) | {"shard_seconds": 5.0}, [CONFIG])
     name, parts = next(iter(some.shards.items()))
-    assert f"{len(parts)} shards" in some.table([some.cases[name]])
-    assert f"1 cases in {len(parts) + 1} jobs" in some.table([some.cases[name]])
+    assert f"{len(parts)} shards" in expected.cases_table(some, [some.cases[name]])
+    said = expected.whole(some, [some.cases[name]], ["kac_fig4"], 2)
+    assert f"1 cases in {len(parts) + 1} jobs" in said
 
 
 def test_the_report_tells_no_way_of_making_jobs():

@@ -1,0 +1,32 @@
+"""How fast corner points come together: the mean over pairs and angles (Kac paper, section 5)."""
+
+import math
+
+from kacsim.kac.constants import MEAN_ENERGY
+
+
+def contraction_rate(n_particles):
+    """Return by how much E sum (x_j - y_j)**2 of two energy vectors falls per step, relatively.
+
+    A step replaces (d_p, d_q) by (a, 1 - a)(d_p + d_q) with E a**2 = 3/8; averaged over pairs,
+    with sum d = 0, the square sum falls by the share (N + 2) / (2 N (N - 1)).
+    """
+    return (n_particles + 2.0) / (2.0 * n_particles * (n_particles - 1.0))
+
+
+def predicted_steps(n_particles, tolerance, energy=None):
+    """Return the steps after which the mean squared distance reaches tolerance**2.
+
+    The distance of energies stands for that of velocities (D**2 ~ sum d**2 / (4 x), x ~ E/N),
+    and the mean for the typical value; by Jensen's inequality the slope in log(1/tolerance)
+    bounds that of the true coupling time from above.
+
+    Parameters
+    ----------
+    n_particles : int >= 3; two particles meet in one step
+    tolerance : float, distance of two corner points
+    energy : float, the sphere's sum of v**2, 3 N / 2 by default
+    """
+    total = MEAN_ENERGY * n_particles if energy is None else energy
+    start = n_particles * total / 2.0  # two corners: d = +-E, x = E/N
+    return math.log(start / tolerance**2) / -math.log1p(-contraction_rate(n_particles))

@@ -8,7 +8,6 @@ Two of the tests compile every kernel, for half a minute each.
 
 import bits
 import numba
-import numpy as np
 import pytest
 import references
 from llvmlite import binding

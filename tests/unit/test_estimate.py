@@ -123,7 +123,7 @@ def test_a_control_variate_is_the_least_squares_line_at_the_known_mean():
 
 
 def test_a_control_variate_that_does_not_vary_changes_nothing():
-    ones = {k: 1.0 for k in (2, 4, 6, 8)}
+    ones = dict.fromkeys((2, 4, 6, 8), 1.0)
     mean = estimate.of_power(ones, 4, 10, square=1.5)
     assert (mean.value, mean.standard_error) == (1.0, 0.0)
 

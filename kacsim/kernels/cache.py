@@ -48,7 +48,8 @@ def roots_of(function):
         if callable(inner):
             more, inner_values = roots_of(inner)
             roots |= more
-            values += [name, *inner_values]
+            # Two may reach the same definitions, and enclose each other's choice.
+            values += [f"{name} = {inner.__module__}.{inner.__qualname__}", *inner_values]
         else:
             values.append(f"{name} = {sources.plain(enclosed, name)}")
     for default in (function.__defaults__, function.__kwdefaults__):
@@ -61,6 +62,20 @@ def key(function):
     roots, values = roots_of(function)
     code = sources.code(roots)
     return hashlib.sha256("\n".join([code, *values]).encode()).hexdigest()[:16]
+
+
+def written(function):
+    """Return the hash of the bytecode of a function and of those that it encloses."""
+    code = function.__code__
+    constants = [one for one in code.co_consts if type(one) in sources.PLAIN]
+    if constants[:1] == [function.__doc__]:
+        del constants[0]
+    parts = [code.co_code.hex(), repr(code.co_names), repr(constants)]
+    for cell in function.__closure__ or ():
+        inner = getattr(cell.cell_contents, "py_func", cell.cell_contents)
+        if hasattr(inner, "__code__"):
+            parts.append(written(inner))
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 class Locator:
@@ -107,10 +122,10 @@ class _Cache(caching.FunctionCache):
     def _index_key(self, signature, codegen):
         """Return what tells compiled code of one folder apart.
 
-        The folder's name says what the function encloses. numba would hash it as pickled, and a
-        compiled function is pickled with a number of its process: its code would not be found.
+        numba would hash what the function encloses as pickled, and a compiled function is pickled
+        with a number of its process: its code would never be found.
         """
-        return signature, codegen.magic_tuple()
+        return signature, codegen.magic_tuple(), written(self._py_func)
 
     def save_overload(self, signature, data):
         """Save compiled code and seal the folder."""

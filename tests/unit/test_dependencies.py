@@ -226,6 +226,36 @@ def test_a_kernel_has_a_folder_for_each_choice(toy):
     assert cache.key(build(law, 4, ("a",))) != cache.key(build(law))
 
 
+def test_kernels_that_reach_the_same_have_folders_by_what_they_enclose(toy):
+    """Each law reaches the other, and which one is enclosed is all that differs."""
+    edited = {"laws/slow.py": "def collide(x): return other(x)\ndef other(x): return collide(-x)"}
+    package = toy(KERNELS | edited)
+    build = package.load("walks.tree").build
+    slow = importlib.import_module("toy.laws.slow")
+    keys = [cache.key(build(law)) for law in (slow.collide, slow.other)]
+    closures = [
+        sources.closure(cache.roots_of(build(law))[0]) for law in (slow.collide, slow.other)
+    ]
+    assert closures[0] == closures[1]
+    assert keys[0] != keys[1]
+
+
+def test_bytecode_tells_functions_of_one_name_apart():
+    """Of what encloses one, too; a docstring is none of it."""
+
+    def around(law):
+        return lambda x: law(x)
+
+    def documented(x):
+        """Say something."""
+        return 2 * x
+
+    twice = cache.written(around(lambda x: 2 * x))
+    assert twice == cache.written(around(lambda x: 2 * x)) == cache.written(around(documented))
+    others = lambda x: 3 * x, lambda x: 2 + x, lambda x: 2 * x.real
+    assert len({twice, *(cache.written(around(law)) for law in others)}) == 4
+
+
 def test_a_kernel_whose_enclosed_values_have_no_short_text_is_refused(toy):
     """Two long arrays look alike in a text, and two lists of functions never do."""
     package = toy(KERNELS)

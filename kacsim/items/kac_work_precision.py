@@ -131,7 +131,7 @@ def _with_best(dataset, budget):
 def draw(dataset):
     """Draw both errors against the seconds of a draw, and the noise that some budgets leave."""
     settings = dataset.attrs["settings"]
-    figure, axes = plotting.panels(1, 2, height=3.4)
+    figure, axes = plotting.panels(1, 2, height=4.0)
     span = np.array([0.5, 2.0]) * [dataset.seconds.min(), dataset.seconds.max()]
     for axis, error in zip(axes, ERRORS, strict=True):
         for k, algorithm in enumerate(ALGORITHMS):
@@ -149,9 +149,12 @@ def draw(dataset):
         axis.set_xlim(*span)
         axis.set_xlabel("processor seconds of one draw")
     axes[0].set_ylabel("relative error of E $v_1^4$, exact")
-    axes[1].set_ylabel("TVN, systematic down to the noise floor")
+    axes[1].set_ylabel("TVN of many draws together")
     plotting.floor(axes[1], float(dataset.tvn_floor))
-    plotting.legend_on_top(axes[0], ncols=2)
+    for face, engine in (("0.3", "ancestral"), ("white", "forward")):
+        axes[1].plot([], [], "o", color="0.3", mfc=face, ms=4, label=engine)
+    handles, labels = axes[1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, **plotting.TIGHT)
     return figure
 
 

@@ -135,6 +135,6 @@ def test_the_best_of_finite_n_has_the_least_error_of_all(dataset):
 
 def test_the_figure_has_a_line_for_every_algorithm_and_budget(dataset):
     figure = kac_work_precision.draw(dataset)
-    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    assert len(labels) == 6 + 2 + 1
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert len(labels) == 6 + 2 + 1 + 1 + 2
     assert "noise after 3 s" in labels

@@ -47,7 +47,10 @@ def sample_kac_readings(case, progress):
         "mean": described(mean, dims, "mean coupling time", "steps"),
         "variance": described(square - mean**2, dims, "variance of the coupling time", "steps2"),
         "third": described(
-            cube - 3.0 * mean * square + 2.0 * mean**3, dims, "its third central moment", "steps3"
+            cube - 3.0 * mean * square + 2.0 * mean * mean * mean,
+            dims,
+            "its third central moment",
+            "steps3",
         ),
         "least": described(least, dims, "smallest coupling time", "steps"),
         "most": described(most, dims, "largest coupling time", "steps"),

@@ -61,10 +61,10 @@ def touch_scale(members, n_particles):
 
 @allocating
 def prepare(arguments, most):
-    """Return `touch_scale` for fewer than `most` ancestors: a logarithm saved per collision."""
+    """Return `touch_scale` of s < `most` ancestors, then 0: it saves a logarithm a collision."""
     n_particles = arguments[0]
-    scales = np.zeros(min(n_particles + 1, most))
-    for members in range(1, scales.size):
+    scales = np.zeros(min(n_particles + 1, most) + 1)
+    for members in range(1, scales.size - 1):
         scales[members] = touch_scale(members, n_particles)
     return scales
 
@@ -78,9 +78,9 @@ def history(arguments, scales, tape, start, root, stream):
     n_particles, left = arguments
     n, members, own = start, 1, 0
     while True:
-        if n == tape.first.size or members == scales.size:
-            return -1, members, own
         left -= failures_before_success(scales[members], stream) + 1
+        if n == tape.first.size or members == scales.size - 1:
+            return -1, members, own
         if left < 0:
             return n, members, own
         # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.

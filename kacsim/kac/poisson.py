@@ -89,14 +89,13 @@ def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
 
 @allocating
 def prepare(arguments, most):
-    """Return the mean time between collisions that touch one of s ancestors, 0 < s < `most`.
+    """Return the mean time between collisions that touch one of s ancestors, 0 < s < `most`, and 0.
 
     s of N particles are touched by s (N - s) + s (s - 1) / 2 pairs, each at the rate 1 / (N - 1).
     """
     size = float(arguments[0])
-    pauses = np.empty(min(arguments[0] + 1, most))
-    pauses[0] = math.inf
-    for s in range(1, pauses.size):
+    pauses = np.zeros(min(arguments[0] + 1, most) + 1)
+    for s in range(1, pauses.size - 1):
         pauses[s] = 2.0 * (size - 1.0) / (s * (2.0 * size - s - 1.0))
     return pauses
 
@@ -110,9 +109,9 @@ def history(arguments, pauses, tape, start, root, stream):
     n_particles, left, _ = arguments
     n, members, own = start, 1, 0
     while True:
-        if n == tape.first.size or members == pauses.size:
-            return -1, members, own
         left -= exponential(stream) * pauses[members]
+        if n == tape.first.size or members == pauses.size - 1:
+            return -1, members, own
         if left < 0.0:
             return n, members, own
         # Of the 2 N - s - 1 ways to touch one of s ancestors, s - 1 have another one as partner.

@@ -83,9 +83,8 @@ def kill_everything(make, expected, full, n_kills=None):
         _wait_for_a_moment(choice, run, process, full)
         _signal(process, signal.SIGKILL)
         killed += process.wait() == -signal.SIGKILL
-        time.sleep(0.2)
         # What jobs are forked from draws nothing, and may still be busy with its imports.
-        if orphans := run.jobs() or run.ends():
+        if orphans := run.ends(2.0, of=run.jobs) or run.ends():
             raise FaultError(f"orphans after a kill: {orphans}")
         run.run("--unlock")
     same(run.complete(), expected, "after kills")

@@ -64,7 +64,8 @@ def borrowers():
     """Return name -> types returned, of what has been compiled without references."""
     found = {}
     for one in gc.get_objects():
-        if isinstance(one, Dispatcher) and one.targetoptions.get("_nrt") is False:
+        # A weak reference to what is gone cannot be asked for its class.
+        if issubclass(type(one), Dispatcher) and one.targetoptions.get("_nrt") is False:
             name = f"{one.py_func.__module__}.{one.py_func.__qualname__}"
             kinds = [signature.return_type for signature in one.nopython_signatures]
             found.setdefault(name, []).extend(kinds)

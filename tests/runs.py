@@ -119,10 +119,15 @@ class Run:
         started = re.findall(r"^\[(\d+)/(\d+)\] ", said, re.M)
         return int(started[-1][0]) / int(started[-1][1]) if started else 0.0
 
-    def ends(self, seconds=10.0):
-        """Return the processes that still work in the folder after some time, none if all end."""
+    def ends(self, seconds=60.0, of=None):
+        """Return the processes that still work in the folder after some time, none if all end.
+
+        Parameters
+        ----------
+        of : callable that returns the processes meant, all of the run if not given
+        """
         end = time.monotonic() + seconds
-        while (found := self.processes()) and time.monotonic() < end:
+        while (found := (of or self.processes)()) and time.monotonic() < end:
             time.sleep(0.02)
         return found
 

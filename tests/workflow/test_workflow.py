@@ -111,7 +111,7 @@ def test_changing_a_setting_changes_only_its_item(project):
 
 
 def test_shards_give_the_same_samples_and_are_not_kept(finished, project):
-    words = ("results/datasets/kac_fig5.nc", *SMOKE, "--config", "shard_seconds=0.0025")
+    words = ("results/datasets/kac_fig5.nc", *SMOKE, "--config", "shard_seconds=0.0006")
     jobs = project.planned(*words)
     assert jobs == {"shard": 4, "merge": 2, "reduce": 1}
     for part in ("samples", "datasets"):  # what is compared below is made anew

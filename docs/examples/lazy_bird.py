@@ -54,14 +54,14 @@ def forward(velocities, own, n_particles, n_picked, chance, stream):
 
 @allocating
 def prepare(arguments, most):
-    """Return the scales of the gaps between collisions that touch s ancestors, 0 < s < `most`.
+    """Return the scales of the gaps between collisions that touch s < `most` ancestors, then 0.
 
     A pick does so with the chance of a collision times that of the pair.
     """
     n_particles, _, chance = arguments
     size = float(n_particles)
-    scales = np.zeros(min(n_particles + 1, most))
-    for s in range(1, scales.size):
+    scales = np.zeros(min(n_particles + 1, most) + 1)
+    for s in range(1, scales.size - 1):
         scales[s] = gap_scale(chance * s * (2.0 * size - s - 1.0) / (size * (size - 1.0)))
     return scales
 

@@ -14,22 +14,31 @@ def main(words):
     """Run a command; return its exit status."""
     address = os.environ.get(ADDRESS)
     connection = _connect(address) if address else None
-    if connection is None:
+    if connection is None or not _sent(connection, words):
         os.execv(sys.executable, [sys.executable, "-m", "kacsim", *words])
-    import json
-    import signal
-    import socket
-
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends at once; the server then ends the job
-    request = {"words": words, "folder": os.getcwd(), "environment": dict(os.environ)}
-    message = json.dumps(request).encode() + b"\n"
-    sent = socket.send_fds(connection, [message], [0, 1, 2])
-    connection.sendall(message[sent:])
     status = connection.recv(16)
     if not status:
         sys.stderr.write("kacsim: the process that served the jobs of this run has ended\n")
         return 1
     return int(status)
+
+
+def _sent(connection, words):
+    """Send a command with this process's streams; return whether all of it was taken."""
+    import json
+    import signal
+    import socket
+
+    request = {"words": words, "folder": os.getcwd(), "environment": dict(os.environ)}
+    message = json.dumps(request).encode() + b"\n"
+    try:
+        sent = socket.send_fds(connection, [message], [0, 1, 2])
+        connection.sendall(message[sent:])
+    except OSError:  # the server has just ended: without its last byte it began nothing
+        connection.close()
+        return False
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends at once; the server then ends the job
+    return True
 
 
 def _connect(address):

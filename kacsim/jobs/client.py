@@ -33,7 +33,9 @@ def _sent(connection, words):
     message = json.dumps(request).encode() + b"\n"
     try:
         sent = socket.send_fds(connection, [message], [0, 1, 2])
-        connection.sendall(message[sent:])
+        # To send nothing fails too, where a short job has been answered already.
+        if rest := message[sent:]:
+            connection.sendall(rest)
     except OSError:  # the server has just ended: without its last byte it began nothing
         connection.close()
         return False

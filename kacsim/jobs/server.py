@@ -123,7 +123,8 @@ class Server:
             child = self._idle_compiler(connection.fileno(), *descriptors)
             try:
                 sent = socket.send_fds(self.compilers[child], [message], descriptors)
-                self.compilers[child].sendall(message[sent:])
+                if rest := message[sent:]:
+                    self.compilers[child].sendall(rest)
                 return child
             except OSError:  # it has just ended
                 self._retire(child)

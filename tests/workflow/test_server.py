@@ -3,8 +3,10 @@
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -184,3 +186,33 @@ def test_a_job_that_compiles_ends_with_its_client(served, tmp_path, monkeypatch)
     until(lambda: not children(number))
     unit = "techniques/integration.sphere_points.count_good"
     assert finish(["compile", unit, "--output", "good.txt"], address, tmp_path) == (0, "", "")
+
+
+def test_a_job_may_be_answered_before_its_client_goes_on(tmp_path, monkeypatch):
+    """A short one is: its client has nothing more to send then, and sends nothing."""
+    address, listening = str(tmp_path / "jobs"), socket.socket(socket.AF_UNIX)
+    listening.bind(address)
+    listening.listen()
+
+    def answer():
+        connection, _ = listening.accept()
+        _, descriptors, _, _ = socket.recv_fds(connection, client.LONGEST, 3)
+        connection.sendall(b"7")
+        for one in (connection, listening):
+            one.close()
+        for descriptor in descriptors:
+            os.close(descriptor)
+
+    answering, send = threading.Thread(target=answer), socket.send_fds
+    answering.start()
+
+    def send_and_wait(*request):
+        sent = send(*request)
+        answering.join()
+        return sent
+
+    monkeypatch.setattr(socket, "send_fds", send_and_wait)
+    monkeypatch.setattr(signal, "signal", lambda *handler: None)
+    monkeypatch.setattr(os, "execv", lambda *command: pytest.fail("the job is done again"))
+    monkeypatch.setenv(client.ADDRESS, address)
+    assert client.main(["compile"]) == 7

@@ -10,7 +10,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "draws": ["draw", "draw_equilibrium"],
         "exact": ["cumulative", "density", "survival"],
         "moments": ["fourth_moment"],
-        "probe": ["estimate_density"],
+        "probe": ["estimate_density", "estimate_tail"],
         "samplers": ["ALGORITHMS"],
     },
 )

@@ -96,7 +96,9 @@ def test_refused_by_name(one, name, value):
 @pytest.mark.parametrize("one", GOOD)
 def test_a_budget_is_kept(one):
     function, good = GOOD[one]
-    late = {"extinction": 3.0, "bkw": 3.0, "bkw_fraction": 3.0, "kac": 3.0, "kac_tail": 3.0}.get(one, 40.0)
+    late = {"extinction": 3.0, "bkw": 3.0, "bkw_fraction": 3.0, "kac": 3.0, "kac_tail": 3.0}.get(
+        one, 40.0
+    )
     arguments = good | SIZE | {"time": late, "max_nodes": 3}
     if "breathing" in good:
         arguments |= {"cross_section": 50.0}

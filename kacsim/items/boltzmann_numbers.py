@@ -11,6 +11,7 @@ USES = (
     "boltzmann_fig9",
     "boltzmann_fig10",
     "boltzmann_oversampling",
+    "boltzmann_trap_variance",
     "boltzmann_variance",
 )
 

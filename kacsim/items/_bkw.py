@@ -7,11 +7,13 @@ oversampling, differ by their settings alone.
 import math
 
 from kacsim.items import _probes
-from kacsim.items._lazy import bkw, np, store
+from kacsim.items._lazy import bkw, np, second_moment, store
 
 AXIS = {"bkw": "speed", "bkw_fraction": "threshold"}
 SYMBOL = {"speed": "c", "threshold": "c_0"}
 N_FINE = 200
+N_EXACT = 60  # points of the exact deviation
+FARTHEST = {"bkw": 7.0, "bkw_fraction": 6.0}  # speeds to which it is known
 
 
 def cases_by_size(sampler, settings):
@@ -50,7 +52,36 @@ def reduce(sampler, samples, settings):
     )
     curves["nominal"] = described(math.erf(math.sqrt(0.5)), (), "share of right bars that cover")
     places = {"fine_time": ("fine_time", fine_time), fine_axis: (fine_axis, fine_first)}
+    if settings.get("oversampling") == 1.0:
+        some_first = np.linspace(fine_first[0], fine_first[-1], N_EXACT)
+        some_time = np.linspace(fine_time[0], fine_time[-1], N_EXACT)
+        text = "exact relative deviation of one realization"
+        curves["deviation_time"] = described(
+            exact_deviation(sampler, settings[axis], some_time), (axis, "some_time"), text
+        )
+        curves[f"deviation_{axis}"] = described(
+            exact_deviation(sampler, some_first, settings["time"]), (f"some_{axis}", "time"), text
+        )
+        places |= {"some_time": ("some_time", some_time)}
+        places |= {f"some_{axis}": (f"some_{axis}", some_first)}
     return table.assign(curves).assign_coords(places)
+
+
+def exact_deviation(sampler, firsts, times):
+    """Return the exact relative deviation of one realization, float64[first, time].
+
+    nan where it is infinite, or where the series that gives it has no digits left.
+    """
+    found = np.full((len(firsts), len(times)), np.nan)
+    for j, time in enumerate(times):
+        near = [i for i, first in enumerate(firsts) if first <= FARTHEST[sampler]]
+        if time >= bkw.critical_time():
+            continue
+        if sampler == "bkw":
+            found[near, j] = second_moment.relative_deviation(np.asarray(firsts)[near], time)
+        else:
+            found[near, j] = [second_moment.fraction_deviation(firsts[i], time) for i in near]
+    return found
 
 
 def _exactly(sampler, settings):

@@ -96,6 +96,7 @@ def draw(dataset):
         _late.draw_deviations(axis, dataset, quantity, speed)
         exact = dataset.branching.sel(quantity=quantity, speed=speed)
         axis.plot(dataset.early, exact, color="black", lw=1, label="branching, exact")
+        axis.set_ylim(top=2.0 * float(exact.max()))
         axis.axvline(float(dataset.critical_time), color="0.4", lw=1, ls=":", label="$t^*$")
         axis.set_title(f"{what} {speed:g} $c_q$")
     axes[2].legend(fontsize=7, loc="lower right")

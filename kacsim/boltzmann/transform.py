@@ -24,7 +24,8 @@ SPAN = 2.0  # after which the slope along the ray is taken out anew
 PRECISION = {"rtol": 1e-11, "atol": 1e-12}
 SMALL = 1e-3  # square of the end of a ray below which its slope is left alone
 LENGTH = 11.0  # period of the inverted law, in standard deviations of the tilted one
-LEAST = 3.0  # times the standard deviation: the tilt of a contour near the middle of the law
+LEAST = 4.0  # logarithm of M up to which a contour near the middle of the law is tilted
+RESOLVED = 1e-8  # relative error above which a value is refused
 NEGLIGIBLE = 1e-16  # of the integrand at its largest
 MOST_NODES = 4000
 
@@ -139,10 +140,10 @@ def left_out(rest):
 
 
 def saddle(law, x, time, share):
-    """Return (eta, deviation): where M(eta, t) exp(-eta x) is least, but at least LEAST deviations.
+    """Return (eta, deviation): where M(eta, t) exp(-eta x) is least, or where log M is LEAST.
 
-    The deviation is the largest of the law when it is tilted by eta or less. One ray gives M at
-    all smaller eta.
+    The larger of both. The deviation is the largest of the law when it is tilted by eta or less.
+    One ray gives M at all smaller eta.
     """
     width = 1e-3
     variance = 2.0 * (float(np.real(law.mgf(np.array([width + 0j]))[0])) - 1.0) / width**2
@@ -157,8 +158,8 @@ def saddle(law, x, time, share):
         if best < 780:
             break
         farthest *= 1.4
-    place = max(fine[best], LEAST / (math.sqrt(variance) * farthest))
-    until = min(max(int(place / fine[1]), 2), fine.size - 2)
+    place = fine[max(best, int(np.argmax(logs > LEAST)))]
+    until = min(max(round(place / fine[1]), 2), fine.size - 2)
     widest = float(np.diff(logs[: until + 2], 2).max())
     deviation = math.sqrt(max(widest, 0.0)) / (fine[1] * farthest)
     return place * farthest, max(deviation, 0.5 * math.sqrt(variance))
@@ -190,9 +191,14 @@ def invert(law, x, time, share, factor, tilt=None):
 
     Returns
     -------
-    (value, error): the error is what the polynomials leave out, and what the trapezoid rule errs
-        by with steps twice as long, squared; relative to the value, or to the integrand if there is
-        a tilt
+    (value, error): the error is relative to the value, or to the integrand if there is a tilt: what
+        the polynomials leave out, what the trapezoid rule errs by with steps twice as long,
+        squared, and rounding
+
+    Raises
+    ------
+    ValueError
+        If the error is above RESOLVED.
     """
     eta, deviation = saddle(law, x, time, share)
     eta = eta if tilt is None else tilt
@@ -216,7 +222,10 @@ def invert(law, x, time, share, factor, tilt=None):
         if aliased < TOLERANCE:
             break
         deviation *= 1.4
-    return value / math.pi * math.exp(slope[0].real - eta * x), aliased + missed
+    error = aliased + (missed + 1e-14) * largest / scale
+    if error > RESOLVED:
+        raise ValueError(f"law: its value at {x!r} is resolved to {error:.1e} only")
+    return value / math.pi * math.exp(slope[0].real - eta * x), error
 
 
 def check(law, time, **places):

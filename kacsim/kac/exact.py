@@ -90,7 +90,7 @@ def drawn_fourth_moment(n_particles):
 
 
 def drawn_moment(order, n_particles):
-    """Return E v_1**order of `drawn_cumulative`, an even order: E[E**k] times that of a Beta law."""
+    """Return E v_1**order of `drawn_cumulative`, an even order: E[E**k] times a Beta moment."""
     value, alpha = 1.0, MEAN_ENERGY * n_particles
     for j in range(order // 2):
         value *= (alpha + j) * (0.5 + j) / (0.5 * n_particles + j)

@@ -5,8 +5,8 @@ U = cos(theta)**2, so that means of products x_1**k_1 ... x_m**k_m of one degree
 turn into one another: by symmetry one unknown a partition of the degree, 11 at degree 6. Let T map
 them over one collision of a uniform pair, and L = (T - I) N / 2, whose entries stay finite as N
 grows. Bird's m collisions give T**m = (I + 2 L / N)**m. A Poisson number of them, of mean
-mu = rate N t / 2, gives the sum of exp(-mu) mu**m T**m / m! = exp(mu (T - I)) = exp(rate t L), which
-is Kac's process. The same two lines hold with T as the map of the whole ensemble's law.
+mu = rate N t / 2, gives the sum of exp(-mu) mu**m T**m / m! = exp(mu (T - I)) = exp(rate t L),
+which is Kac's process. The same two lines hold with T as the map of the whole ensemble's law.
 """
 
 import functools
@@ -97,7 +97,7 @@ def partitions(degree, largest=None):
 
 
 def share_moment(a, b):
-    """Return E[U**a (1 - U)**b], U = cos(theta)**2 of a uniform angle, as a fraction of integers."""
+    """Return E[U**a (1 - U)**b], U = cos(theta)**2 of a uniform angle."""
     numerator = math.factorial(2 * a) * math.factorial(2 * b)
     factorials = math.factorial(a) * math.factorial(b) * math.factorial(a + b)
     return numerator / (4 ** (a + b) * factorials)

@@ -139,15 +139,11 @@ def left_out(rest):
     return np.abs(last @ rest).max(axis=0)
 
 
-def saddle(law, x, time, share):
-    """Return (eta, deviation): where M(eta, t) exp(-eta x) is least, or where log M is LEAST.
+def search(law, x, time, share, farthest):
+    """Return (eta float64[801], log M(eta, t) there, place of the saddle point).
 
-    The larger of both. The deviation is the largest of the law when it is tilted by eta or less.
-    One ray gives M at all smaller eta.
+    One ray gives M at all smaller eta; rays get longer until the saddle point is on one.
     """
-    width = 1e-3
-    variance = 2.0 * (float(np.real(law.mgf(np.array([width + 0j]))[0])) - 1.0) / width**2
-    farthest = 0.3 * x / variance + 4.0 / math.sqrt(variance)
     fine = np.linspace(0.0, 1.0, 801)
     while True:
         slope, rest = grow(law, np.array([farthest + 0j]), time, share, DEGREES[2])
@@ -156,13 +152,40 @@ def saddle(law, x, time, share):
         logs = fine**2 * slope[0].real + np.log(np.maximum(values, 1e-300))
         best = int(np.argmin(logs - fine * farthest * x))
         if best < 780:
-            break
+            return fine * farthest, logs, best
         farthest *= 1.4
-    place = fine[max(best, int(np.argmax(logs > LEAST)))]
-    until = min(max(round(place / fine[1]), 2), fine.size - 2)
-    widest = float(np.diff(logs[: until + 2], 2).max())
-    deviation = math.sqrt(max(widest, 0.0)) / (fine[1] * farthest)
-    return place * farthest, max(deviation, 0.5 * math.sqrt(variance))
+
+
+def variance_of(law):
+    """Return the variance of one component at time 0, to six digits."""
+    width = 1e-3
+    return 2.0 * (float(np.real(law.mgf(np.array([width + 0j]))[0])) - 1.0) / width**2
+
+
+def saddle(law, x, time, share):
+    """Return (eta, deviation): where M(eta, t) exp(-eta x) is least, and of the law there."""
+    variance = variance_of(law)
+    farthest = 2.0 * x / variance + 2.0 / math.sqrt(variance)
+    eta, logs, best = search(law, x, time, share, farthest)
+    around = np.clip(best, 1, eta.size - 2)
+    second = logs[around - 1] - 2.0 * logs[around] + logs[around + 1]
+    deviation = math.sqrt(max(second, 0.0)) / eta[1]
+    return eta[best], max(deviation, 0.5 * math.sqrt(variance))
+
+
+def tilt_for(law, x, time, share):
+    """Return (eta, deviation) of a contour where nothing cancels, near the middle of the law too.
+
+    eta is that of the saddle point, but at least where log M is LEAST; the deviation is the largest
+    of the law when it is tilted by eta or less.
+    """
+    variance = variance_of(law)
+    farthest = 0.3 * x / variance + 4.0 / math.sqrt(variance)
+    eta, logs, best = search(law, x, time, share, farthest)
+    last = max(best, int(np.argmax(logs > LEAST)))
+    widest = float(np.diff(logs[: max(last, 2) + 2], 2).max())
+    deviation = math.sqrt(max(widest, 0.0)) / eta[1]
+    return eta[last], max(deviation, 0.5 * math.sqrt(variance))
 
 
 def contour(law, eta, deviation):
@@ -186,7 +209,7 @@ def invert(law, x, time, share, factor, tilt=None):
     time : float >= 0, in mean collision times
     share : `uniform_share` or `squared_cosine_share`
     factor : 1 for the density at x of one component, 1 / z for its upper tail, and others
-    tilt : eta >= 0, by default that of `saddle`; 0 is the
+    tilt : eta >= 0, by default that of `tilt_for`; 0 is the
         Fourier inversion, whose error is 1e-15 of the density at its largest
 
     Returns
@@ -200,7 +223,7 @@ def invert(law, x, time, share, factor, tilt=None):
     ValueError
         If the error is above RESOLVED.
     """
-    eta, deviation = saddle(law, x, time, share)
+    eta, deviation = tilt_for(law, x, time, share)
     eta = eta if tilt is None else tilt
     degrees = DEGREES
     while True:

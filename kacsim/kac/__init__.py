@@ -11,7 +11,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "exact": ["cumulative", "density", "survival"],
         "high_moments": ["moment"],
         "moments": ["fourth_moment"],
-        "probe": ["estimate_density"],
+        "probe": ["estimate_density", "estimate_tail"],
+        "relaxation": ["estimate_relaxation", "estimate_relaxation_tail"],
         "samplers": ["ALGORITHMS"],
     },
 )

@@ -104,7 +104,9 @@ def reduce(samples, settings):
         "correlation_error": described(1.0 / math.sqrt(n_draws), (), "its standard error"),
         "n_draws": described(n_draws, (), "draws of each that are tested"),
         "gain": described(
-            _gain(fixed, tolerance, settings["bin_width"]), (), "bound of the TVN that epsilon costs"
+            _gain(fixed, tolerance, settings["bin_width"]),
+            (),
+            "bound of the TVN by epsilon",
         ),
     }
     variables |= _work(samples, work, settings) | _scan(samples, scan, settings)

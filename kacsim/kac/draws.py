@@ -147,7 +147,5 @@ def draw_perfect(*, n_particles, n_draws, seed, energy=None):
     checks.raise_problems(case.problems())
     velocities = np.empty(n_draws)
     stream = new_stream(seed, "kac.draw_perfect")
-    perfect_blocks.draw_beginnings(
-        velocities, *perfect_blocks.arguments(**case.parameters), stream
-    )
+    perfect_blocks.draw_beginnings(velocities, *perfect_blocks.arguments(**case.parameters), stream)
     return velocities

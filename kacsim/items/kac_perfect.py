@@ -12,7 +12,7 @@ from kacsim.kac.work import of_blocks, of_coupling
 
 KINDS = ("kac_perfect", "kac_equilibrium")
 LEVEL = 1e-3  # of the Kolmogorov-Smirnov test
-MISSED = 1.645  # standard deviations that 95 of 100 normal variates are above, with a minus
+POWER = 0.95  # of it, for a distance that is called seen
 COARSE = 32  # bins of the range of v_1 from one point of the figure to the next
 
 
@@ -89,8 +89,10 @@ def reduce(samples, settings):
             [law["departure"] for law in others], ("biased_n", "edge"), "root n times (F_n - F)"
         ),
         "seen": described(
-            _seen(n_draws), (), f"distance seen in 95 of 100 runs at the level {LEVEL}"
+            _seen(n_draws), (), f"distance seen with probability {POWER} at the level {LEVEL}"
         ),
+        "one_in": described(1.0 / LEVEL, (), "runs of exact draws of which one passes the lines"),
+        "power": described(POWER, (), "probability with which a distance `seen` is seen"),
         "moment": described([m.value for m in moments], one, "mean of v_1**4"),
         "moment_error": described([m.standard_error for m in moments], one, "its standard error"),
         "moment_exact": described(
@@ -149,11 +151,12 @@ def _law(known, n_draws):
 
 
 def _seen(n_draws):
-    """Return the distance that the test sees in 95 of 100 runs, or more.
+    """Return a distance that the test sees with the probability POWER, or more.
 
     Where the law is that far off, F_n has at most the standard deviation 1 / (2 sqrt(n)).
     """
-    return (float(special.kolmogi(LEVEL)) + 0.5 * MISSED) / math.sqrt(n_draws)
+    reach = float(special.kolmogi(LEVEL)) + 0.5 * float(special.ndtri(POWER))
+    return reach / math.sqrt(n_draws)
 
 
 def _correlation(sample, case):

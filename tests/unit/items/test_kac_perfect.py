@@ -111,7 +111,7 @@ def test_a_distance_that_is_seen_is_seen_in_95_of_100_runs():
     """n = 2000 draws of a uniform law of which a share is moved over the middle, both ways."""
     distance, random = float(dataset().seen), np.random.default_rng(4)
     critical = stats.kstwobign.isf(1e-3) / math.sqrt(2000)
-    assert distance == pytest.approx(critical + 0.5 * 1.645 / math.sqrt(2000))
+    assert distance == pytest.approx(critical + 0.5 * stats.norm.ppf(0.95) / math.sqrt(2000))
     edges = np.linspace(0.0, 1.0, 201)
     density = np.full(200, 1.0 / 200)
     density[:100] -= distance / 100.0

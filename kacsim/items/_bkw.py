@@ -1,6 +1,7 @@
-"""The eight figures of the BKW mode: Algorithm 2 or 3, against time or along an axis.
+"""The figures of the BKW mode: Algorithm 2 or 3, or McKean's trees, against time or along an axis.
 
-The published figures and those with oversampling differ by their settings alone.
+The published figures, those with oversampling and those by McKean's trees, whose settings have no
+oversampling, differ by their settings alone.
 """
 
 import math
@@ -17,7 +18,9 @@ def cases_by_size(sampler, settings):
     """Return size -> case, the probes being a grid of the first axis by time."""
     axis = AXIS[sampler]
     grid = {axis: settings[axis], "time": settings["time"]}
-    common = {"oversampling": settings["oversampling"], "max_nodes": settings["max_nodes"]}
+    common = {key: settings[key] for key in ("oversampling", "max_nodes") if key in settings}
+    if "oversampling" not in settings:
+        sampler = f"{sampler}_ancestral"
     return {size: _probes.case(settings, sampler, size, **grid, **common) for size in _probes.SIZES}
 
 
@@ -66,14 +69,14 @@ def covering(sampler, samples, settings, size):
 
 
 def claims(dataset):
-    """Return nothing: the bars of these figures are counted together, in `boltzmann_numbers`."""
+    """Return nothing: the bars of these figures are counted elsewhere."""
     return []
 
 
 def draw(sampler, along, dataset):
     """Draw values and relative errors along one axis, a panel per value of the other."""
     axis = AXIS[sampler]
-    published = dataset.attrs["settings"]["oversampling"] == 1.0
+    published = dataset.attrs["settings"].get("oversampling") == 1.0
     critical = bkw.critical_time() if published else None
     quantity = "$f(c;t)\\,c_q^3$" if sampler == "bkw" else "fraction $|c| > c_0$"
     symbol = SYMBOL[axis]

@@ -110,14 +110,15 @@ def states(n, seed):
 
 def test_bounds_hold_all_that_is_neither_last_nor_before(seed):
     """Of the first k particles and of the last one nothing is counted; a slack widens both ways."""
-    images = states(5, seed)
     rest, least, most = np.empty(6), np.empty(5), np.empty(5)
-    perfect_blocks.set_rests(images, rest, least, most, 0.25)
-    for k in range(3):
-        sums = images[k + 1 : 4, :5].sum(axis=0)
-        assert least[k] == pytest.approx(0.75 * sums.min())
-        assert most[k] == pytest.approx(1.25 * sums.max())
-    assert least[3] == most[3] == 0.0
+    for part in range(40):
+        images = states(5, [seed, part])
+        perfect_blocks.set_rests(images, rest, least, most, 0.25)
+        for k in range(3):
+            sums = images[k + 1 : 4, :5].sum(axis=0)
+            assert least[k] == pytest.approx(0.75 * sums.min())
+            assert most[k] == pytest.approx(1.25 * sums.max())
+        assert least[3] == most[3] == 0.0
 
 
 def test_equal_sums_never_fail(seed):

@@ -7,8 +7,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "constants": ["RATE"],
-        "draws": ["draw", "draw_equilibrium"],
+        "draws": ["draw", "draw_equilibrium", "draw_perfect"],
         "exact": ["cumulative", "density", "survival"],
+        "high_moments": ["moment"],
         "moments": ["fourth_moment"],
         "probe": ["estimate_density", "estimate_tail"],
         "relaxation": ["estimate_relaxation", "estimate_relaxation_tail"],

@@ -222,7 +222,7 @@ def direction(stream):
 @inlined
 def _height(bits):
     """Return a uniform float64 on [-1, 1), a multiple of 2**-52."""
-    return (int64(bits) >> int64(11)) * (2.0 * UNIT)
+    return int64(bits >> uint64(11)) * (2.0 * UNIT) - 1.0
 
 
 @inlined

@@ -8,6 +8,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "bkw_estimators": ["estimate_bkw", "estimate_bkw_fraction", "estimate_extinction"],
         "estimators": ["BudgetError", "Estimate"],
+        "initial_laws": ["Mixture", "Transform"],
+        "relaxation_estimators": ["estimate_relaxation", "estimate_relaxation_fraction"],
         "trap_estimators": ["estimate_trap", "estimate_trap_fraction"],
     },
 )

@@ -1,9 +1,11 @@
 """The public estimators of the BKW mode and of extinction: checked arguments, physical units."""
 
 from kacsim import checks
-from kacsim.boltzmann import bkw, bkw_tree, null_collisions
+from kacsim.boltzmann import bkw, bkw_tree, mckean_tree, null_collisions
 from kacsim.boltzmann.constants import MAX_NODES
 from kacsim.boltzmann.estimators import estimate_from, length, sizes, vector_of
+from kacsim.mckean import choice
+from kacsim.mckean.constants import BKW
 from kacsim.samplers import declared
 
 
@@ -16,9 +18,11 @@ def estimate_bkw(
     rms_velocity=1.0,
     oversampling=1.0,
     onset=0.0,
+    method=choice.BRANCHING,
+    cut=0.0,
     max_nodes=MAX_NODES,
 ):
-    """Estimate f(c; t) of the BKW mode by Algorithm 2 (Boltzmann paper, section II).
+    """Estimate f(c; t) of the BKW mode: by Algorithm 2 (Boltzmann paper, section II), or others.
 
     Parameters
     ----------
@@ -29,6 +33,12 @@ def estimate_bkw(
     rms_velocity : float > 0, c_q, per axis
     oversampling : float >= 1, mean number of sub-estimates that replace each one; 1 as published
     onset : float >= 0, collisions before this time are not oversampled
+    method : "branching" is the paper's, of infinite variance from `bkw.critical_time` on. By trees
+        of McKean's (docs/ancestral_trees.md), of finite variance at every time: "ancestral"
+        integrates all leaves out, "free_leaf" one of them, "geometric" too, with a geometric
+        number of leaves. "best" takes the one that serves, and the result says which
+    cut : float >= 0, of "ancestral": subtrees of shares below cut / (beta eta**2) are replaced by
+        their mean, which is the law that is estimated; 0 for none
     max_nodes : int, budget of one tree
 
     Returns
@@ -48,12 +58,16 @@ def estimate_bkw(
         checks.not_negative("time", time),
         checks.positive("rms_velocity", rms_velocity),
         declared("bkw", tree),
+        choice.problems(method, cut, tree),
         sizes(n_realizations, seed),
     )
+    unit = speed / rms_velocity
+    method, own = choice.chosen(method, {"velocity": unit}, time, BKW, cut, tree, at_speed=True)
 
-    draw = bkw_tree.bkw(speed / rms_velocity, time, **tree)
+    bind = bkw_tree.bkw if method == choice.BRANCHING else mckean_tree.bkw_ancestral
     factor = float(bkw.maxwellian(speed, rms_velocity))
-    return estimate_from(draw, factor, n_realizations, seed, "boltzmann.estimate_bkw")
+    name = "boltzmann.estimate_bkw"
+    return estimate_from(bind(unit, time, **own), factor, n_realizations, seed, name, method)
 
 
 def estimate_bkw_fraction(
@@ -65,6 +79,8 @@ def estimate_bkw_fraction(
     rms_velocity=1.0,
     oversampling=1.0,
     onset=0.0,
+    method=choice.BRANCHING,
+    cut=0.0,
     max_nodes=MAX_NODES,
 ):
     """Estimate the fraction of particles with |c| > threshold by Algorithm 3 and eq. (19).
@@ -77,11 +93,16 @@ def estimate_bkw_fraction(
         checks.not_negative("time", time),
         checks.positive("rms_velocity", rms_velocity),
         declared("bkw", tree),
+        choice.problems(method, cut, tree),
         sizes(n_realizations, seed),
     )
+    unit = threshold / rms_velocity
+    method, own = choice.chosen(method, {"threshold": unit}, time, BKW, cut, tree)
 
-    draw = bkw_tree.bkw_fraction(threshold / rms_velocity, time, **tree)
-    return estimate_from(draw, 1.0, n_realizations, seed, "boltzmann.estimate_bkw_fraction")
+    branching = method == choice.BRANCHING
+    bind = bkw_tree.bkw_fraction if branching else mckean_tree.bkw_fraction_ancestral
+    name = "boltzmann.estimate_bkw_fraction"
+    return estimate_from(bind(unit, time, **own), 1.0, n_realizations, seed, name, method)
 
 
 def estimate_extinction(

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kacsim import checks
+from kacsim.mckean.choice import BRANCHING
 from kacsim.streams import CHUNK, new_stream
 from kacsim.sums import add_powers
 
@@ -24,6 +25,7 @@ class Estimate:
     mean_recursion : mean number of t' drawings of one realization
     n_realizations : int
     largest_share : share of the largest realization in the sum; near 1 the bars say nothing
+    method : str, how: "branching" by the papers' trees, others by McKean's
     """
 
     mean: float
@@ -32,6 +34,7 @@ class Estimate:
     mean_recursion: float
     n_realizations: int
     largest_share: float
+    method: str = BRANCHING
 
 
 def chunks(draw, n_realizations, stream):
@@ -57,7 +60,7 @@ def chunks(draw, n_realizations, stream):
         yield values, nodes
 
 
-def estimate_from(draw, factor, n_realizations, seed, name):
+def estimate_from(draw, factor, n_realizations, seed, name, method=BRANCHING):
     """Return the Estimate of factor times the drawn values."""
     sums, largest, nodes = np.zeros(2), 0.0, 0
     for values, counts in chunks(draw, n_realizations, new_stream(seed, name)):
@@ -67,7 +70,8 @@ def estimate_from(draw, factor, n_realizations, seed, name):
     total, square = map(float, sums)
     mean = total / n_realizations
     # A product below the smallest normal number has lost its digits, a factor of 0 everything.
-    lost = factor == 0.0 or (mean != 0.0 and abs(factor * mean) < SMALLEST)
+    # Only branching can end with nothing but zeros.
+    lost = factor == 0.0 or ((mean != 0.0 or method != BRANCHING) and abs(factor * mean) < SMALLEST)
     if lost or not math.isfinite(factor * mean):
         raise ValueError("the probe lies where double precision holds no value: bring it nearer")
     spread = max(0.0, square - n_realizations * mean * mean) / (n_realizations - 1)
@@ -78,6 +82,7 @@ def estimate_from(draw, factor, n_realizations, seed, name):
         mean_recursion=nodes / n_realizations,
         n_realizations=n_realizations,
         largest_share=largest / abs(total) if total else 0.0,
+        method=method,
     )
 
 

@@ -1,5 +1,6 @@
 """The samplers of the Boltzmann paper, declared: probes by trees, and the trap."""
 
+import dataclasses
 import functools
 
 from kacsim.boltzmann.constants import BREATHING, COUPLING, LARGEST_PHASE, MAX_NODES
@@ -13,6 +14,9 @@ from kacsim.checks import (
     one_of,
     positive,
 )
+from kacsim.mckean.constants import BKW
+from kacsim.mckean.parameters import MCKEAN, far, mckean
+from kacsim.mckean.work import of_trees
 from kacsim.samplers import Parameter, Sampler, real, whole
 
 OUTSIDE = "a case carries every value that its declaration sets"
@@ -64,11 +68,11 @@ def literal_time(name, value):
 
 
 at_least_one = functools.partial(at_least, least=1.0)
-BUDGET = Parameter(
-    "max_nodes", "budget", "budget of nodes of one tree", count, MAX_NODES, kind=whole
-)
 ONSET = quantity(
     "onset", "from", "collisions later than this time are oversampled", not_negative, 0.0
+)
+BUDGET = Parameter(
+    "max_nodes", "budget", "budget of nodes of one tree", count, MAX_NODES, kind=whole
 )
 TREE = (
     quantity(
@@ -113,7 +117,7 @@ INITIAL = initial_state(*STARTS, default="bkw")
 TRAP = (RADII, TRAP_TIMES, INITIAL, EPS, PHASE, STRENGTH, *SAMPLING_LAWS, BUDGET)
 
 
-def probing(name, draws, kernels, parameters, tiny, work=None):
+def probing(name, draws, kernels, parameters, tiny, work=None, check=None):
     """Return the declaration of a sampler at a grid of probes: its first parameter that is a list.
 
     Its kernels' module has a function of the sampler's name that binds parameters to a probe.
@@ -127,8 +131,19 @@ def probing(name, draws, kernels, parameters, tiny, work=None):
         kernels=kernels,
         entries=lambda _: (name,),
         streaming="sample",
+        check=check,
         work=work or functools.partial(of_bkw, axis=axis),
     )
+
+
+def probing_ancestors(name, draws, axis):
+    """Return the declaration of a sampler by McKean's trees, up to `far` speeds."""
+    own = dataclasses.replace(axis, check=far)
+    return probing(
+        name, draws, "mckean_tree", (own, TIMES, *MCKEAN, BUDGET), {own.name: [1.0], "time": [1.0]},
+        functools.partial(of_trees, axis=own.name, law=BKW),
+        functools.partial(mckean, axis=own.name, law=BKW, at_speed=axis is SPEEDS),
+    )  # fmt: skip
 
 
 def probing_trap(name, draws):
@@ -192,5 +207,10 @@ SAMPLERS = (
             BUDGET,
         ),
         {"time": [1.0], "oversampling": [1.0]},
+    ),
+    probing_ancestors("bkw_ancestral", "estimates of f(c; t) by McKean's trees", SPEEDS),
+    probing_ancestors(
+        "bkw_fraction_ancestral", "estimates of a high-energy fraction by McKean's trees",
+        THRESHOLDS,
     ),
 )  # fmt: skip

@@ -4,17 +4,20 @@ import importlib
 import inspect
 import json
 
+from kacsim.mckean import choice
+from kacsim.mckean.constants import METHODS
 from kacsim.plan import PlanError
 
 EXAMPLE = "estimate bkw --velocity 4 --time 1 --n-realizations 100000"
 # command -> (family, function, what it probes)
 ESTIMATORS = {
     "kac": ("kac", "estimate_density", "f(v, t) of the Kac equation"),
-    "bkw": ("boltzmann", "estimate_bkw", "f(c; t) of the BKW mode, Algorithm 2"),
+    "kac-tail": ("kac", "estimate_tail", "P(v_1 > v) of the Kac equation"),
+    "bkw": ("boltzmann", "estimate_bkw", "f(c; t) of the BKW mode"),
     "bkw-fraction": (
         "boltzmann",
         "estimate_bkw_fraction",
-        "the fraction of the BKW mode faster than a threshold, Algorithm 3",
+        "the fraction of the BKW mode faster than a threshold",
     ),
     "extinction": ("boltzmann", "estimate_extinction", "f(t) of f' = -alpha f^2, Algorithm 4"),
     "trap": ("boltzmann", "estimate_trap", "f(r; c; t) in the harmonic trap, Algorithms 5 and 6"),
@@ -26,7 +29,7 @@ ESTIMATORS = {
 }
 LIMIT = 0.05  # of the largest realization's share, above which the bars are not believed
 WHOLE = {"n_realizations", "seed", "max_nodes"}
-DEFAULTS = {"n_realizations": 10_000, "seed": 1}
+DEFAULTS = {"n_realizations": 10_000, "seed": 1, "method": choice.BEST}
 
 
 def _function(name):
@@ -88,7 +91,10 @@ def run(arguments):
         print(json.dumps(vars(found)))
         return
     print(f"{text}: {found.mean:.6g} ± {found.standard_error:.2g}")
-    print(f"{found.n_realizations} realizations, mean recursion {found.mean_recursion:.4g}")
+    by = f", method {found.method}" if "method" in given else ""
+    print(f"{found.n_realizations} realizations, mean recursion {found.mean_recursion:.4g}{by}")
     if found.largest_share > LIMIT:
         share = f"{100 * found.largest_share:.0f} %"
-        print(f"one realization makes {share} of the sum: the error cannot be believed")
+        other = "method" in given and found.method != METHODS[0]
+        serves = f"; --method {METHODS[0]} serves" if other else ""
+        print(f"one realization makes {share} of the sum: the error cannot be believed{serves}")

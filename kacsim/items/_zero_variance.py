@@ -54,6 +54,6 @@ def _finding(claim, what, cases, samples, settings):
         total += departures[1].size * case.n_draws
     evidence = (
         f"{what}: {total:,} realizations, the largest ones and the means of all; largest relative "
-        f"departure {worst:.1e}."
+        f"departure {estimate.within(worst, settings['rounding'])}."
     )
     return verdict.finding(claim, estimate.Share(wrong, total), evidence)

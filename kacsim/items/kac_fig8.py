@@ -94,7 +94,7 @@ def claims(dataset):
             "kac_52_same_pair",
             estimate.Share(count["n_repeated_changed"], count["n_repeated"]),
             f"{count['n_repeated']} steps that repeat a pair, {runs}; largest relative change of D "
-            f"{float(dataset.largest_change_repeated):.1e}.",
+            f"{estimate.within(float(dataset.largest_change_repeated), settings['rounding'])}.",
         ),
         verdict.finding(
             "kac_52_shrinks",

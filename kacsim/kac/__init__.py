@@ -10,7 +10,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "draws": ["draw", "draw_equilibrium"],
         "exact": ["cumulative", "density", "survival"],
         "moments": ["fourth_moment"],
-        "probe": ["estimate_density"],
+        "probe": ["estimate_density", "estimate_tail"],
+        "relaxation": ["estimate_relaxation", "estimate_relaxation_tail"],
         "samplers": ["ALGORITHMS"],
     },
 )

@@ -5,8 +5,10 @@ import math
 from kacsim import checks
 from kacsim.boltzmann import estimators
 from kacsim.boltzmann.constants import MAX_NODES
-from kacsim.kac import probe_tree
+from kacsim.kac import mckean_tree, probe_tree
 from kacsim.kac.constants import RATE
+from kacsim.mckean import choice
+from kacsim.mckean.constants import KAC, METHODS
 from kacsim.samplers import declared
 
 INITIAL_SECOND_MOMENT = 27.0 * 3.0 / 5.0**2.5  # E_M[(f0 / M)**2] = 1.44897
@@ -26,9 +28,11 @@ def estimate_density(
     oversampling=1.0,
     onset=0.0,
     collision_rate=RATE,
+    method=choice.BRANCHING,
+    cut=0.0,
     max_nodes=MAX_NODES,
 ):
-    """Estimate f(v, t) of the Kac equation by the Boltzmann paper's branching trees.
+    """Estimate f(v, t) of the Kac equation, by the Boltzmann paper's branching trees or others.
 
     Parameters
     ----------
@@ -39,6 +43,7 @@ def estimate_density(
     oversampling, onset : float, mean number of sub-estimates that replace each one, and the time
         from which on; needed from `critical_time` on
     collision_rate : float > 0
+    method, cut : as `kacsim.boltzmann.estimate_bkw`
     max_nodes : int, budget of one tree
 
     Returns
@@ -58,14 +63,45 @@ def estimate_density(
         checks.not_negative("time", time),
         declared("kac_probe", tree),
         checks.positive("collision_rate", collision_rate),
+        choice.problems(method, cut, tree),
         estimators.sizes(n_realizations, seed),
     )
+    span = collision_rate * time
+    method, own = choice.chosen(method, {"v": abs(v)}, span, KAC, cut, tree)
 
-    draw = probe_tree.kac_probe(
-        v,
-        time,
-        collision_rate=collision_rate,
-        **tree,
-    )
+    bind = probe_tree.kac_probe if method == choice.BRANCHING else mckean_tree.kac_ancestral
+    draw = bind(v, time, collision_rate=collision_rate, **own)
     factor = math.exp(-v * v / 3.0) / math.sqrt(3.0 * math.pi)
-    return estimators.estimate_from(draw, factor, n_realizations, seed, "kac.estimate_density")
+    name = "kac.estimate_density"
+    return estimators.estimate_from(draw, factor, n_realizations, seed, name, method)
+
+
+def estimate_tail(
+    v,
+    time,
+    *,
+    n_realizations,
+    seed,
+    collision_rate=RATE,
+    method=choice.BEST,
+    cut=0.0,
+    max_nodes=MAX_NODES,
+):
+    """Estimate P(v_1(t) > v) of the Kac equation by McKean's trees (docs/ancestral_trees.md).
+
+    Parameters, result and errors as `estimate_density`, with v >= 0 and without branching.
+    """
+    tree = {**choice.PLAIN, "max_nodes": max_nodes}
+    checks.raise_problems(
+        checks.not_negative("v", v),
+        checks.not_negative("time", time),
+        checks.one_of("method", method, (choice.BEST, *METHODS)),
+        checks.not_negative("cut", cut),
+        checks.positive("collision_rate", collision_rate),
+        checks.count("max_nodes", max_nodes),
+        estimators.sizes(n_realizations, seed),
+    )
+    method, own = choice.chosen(method, {"v": v}, collision_rate * time, KAC, cut, tree)
+
+    draw = mckean_tree.kac_tail_ancestral(v, time, collision_rate=collision_rate, **own)
+    return estimators.estimate_from(draw, 1.0, n_realizations, seed, "kac.estimate_tail", method)

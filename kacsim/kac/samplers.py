@@ -4,11 +4,14 @@ import dataclasses
 import functools
 import math
 
-from kacsim.boltzmann.samplers import TREE, grid
+from kacsim.boltzmann.samplers import BUDGET, TREE, grid
 from kacsim.boltzmann.work import of_kac
 from kacsim.checks import Problem, count, falling, finite, not_negative, one_of, positive
 from kacsim.kac import work
 from kacsim.kac.constants import MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
+from kacsim.mckean import work as trees
+from kacsim.mckean.constants import KAC as KAC_LAW
+from kacsim.mckean.parameters import MCKEAN, far, mckean
 from kacsim.samplers import Parameter, Sampler, Variant, real, whole, whole_or_infinite
 
 OUTSIDE = "a case carries every value that its declaration sets"
@@ -255,12 +258,13 @@ FORWARD = Sampler(
     work=work.of_coupling,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
 )
+PROBE_TIMES = grid("time", "t", "times t of the Kac paper")
 PROBE = Sampler(
     "kac_probe",
     "estimates of f(v, t) of the Kac equation",
     (
         grid("speed", "v", "speeds of the probes |v|, in the unit of the paper"),
-        grid("time", "t", "times t of the Kac paper"),
+        PROBE_TIMES,
         COLLISION_RATE,
         *TREE,
     ),
@@ -269,4 +273,31 @@ PROBE = Sampler(
     work=of_kac,
     tiny=({"speed": [1.0], "time": [1.0]},),
 )
-SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, READINGS, FORWARD, PROBE)
+
+
+def ancestors(name, draws, axis):
+    """Return the declaration of a sampler by McKean's trees, up to `far` speeds."""
+    return Sampler(
+        name,
+        draws,
+        (axis, PROBE_TIMES, COLLISION_RATE, *MCKEAN, BUDGET),
+        ({axis.name: [1.0], "time": [1.0]},),
+        kernels="mckean_tree",
+        entries=lambda _: (name,),
+        streaming="sample_kac_probe",
+        check=functools.partial(mckean, axis=axis.name, law=KAC_LAW),
+        work=functools.partial(trees.of_trees, axis=axis.name, law=KAC_LAW),
+    )
+
+
+ANCESTORS = (
+    ancestors(
+        "kac_ancestral", "estimates of f(v, t) of the Kac equation by McKean's trees",
+        grid("speed", "v", "speeds of the probes |v|, in the unit of the paper", far),
+    ),
+    ancestors(
+        "kac_tail_ancestral", "estimates of P(v_1 > v) of the Kac equation by McKean's trees",
+        grid("threshold", "v", "thresholds v, in the unit of the paper", far),
+    ),
+)  # fmt: skip
+SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, READINGS, FORWARD, PROBE, *ANCESTORS)

@@ -148,3 +148,8 @@ def of_share(successes, n_draws):
     """Return a binomial share with its standard error, never zero, as a mean."""
     share = Share(int(successes), int(n_draws))
     return Mean(share.value, share.standard_error)
+
+
+def within(worst, rounding):
+    """Return a largest departure as words: rounding errors differ from machine to machine."""
+    return f"within {rounding:.0e}" if worst <= rounding else f"{worst:.1e}"

@@ -186,3 +186,8 @@ def test_a_difference_to_one_without_an_error_has_no_interval():
 
 def test_over_is_in_other_units():
     assert Mean(6.0, 0.3, 9).over(3.0) == Mean(2.0, pytest.approx(0.1), 9)
+
+
+def test_a_departure_within_rounding_is_told_without_its_digits():
+    assert estimate.within(7.3e-14, 1e-12) == estimate.within(7.5e-14, 1e-12) == "within 1e-12"
+    assert estimate.within(3.2e-9, 1e-12) == "3.2e-09"

@@ -1,0 +1,53 @@
+"""Any symmetric initial law on Kac's line, at any time."""
+
+from kacsim import checks
+from kacsim.boltzmann.relaxation_estimators import estimate
+from kacsim.kac.constants import RATE
+from kacsim.mckean.constants import KAC
+
+
+def estimate_relaxation(v, time, *, initial, n_realizations, seed, collision_rate=RATE, cut=0.0):
+    """Estimate f(v, t) of the Kac equation that starts from any symmetric law.
+
+    Parameters
+    ----------
+    v : float
+    time : float >= 0
+    initial : `kacsim.boltzmann.Mixture` of one dimension, `Transform`, or any object with ``mgf``
+    n_realizations, seed, cut : as `kacsim.boltzmann.estimate_relaxation`
+    collision_rate : float > 0
+
+    Returns
+    -------
+    kacsim.boltzmann.Estimate
+
+    Raises
+    ------
+    ValueError, kacsim.boltzmann.BudgetError
+        As `kacsim.boltzmann.estimate_relaxation`.
+    """
+    checks.raise_problems(checks.finite("v", v), checks.positive("collision_rate", collision_rate))
+    return _estimate(
+        lambda z: 1.0 + 0.0 * z, abs(v), time, initial, collision_rate, "estimate_relaxation",
+        n_realizations=n_realizations, seed=seed, cut=cut,
+    )  # fmt: skip
+
+
+def estimate_relaxation_tail(
+    v, time, *, initial, n_realizations, seed, collision_rate=RATE, cut=0.0
+):
+    """Estimate P(v_1(t) > v) of the Kac equation that starts from any symmetric law.
+
+    Parameters, result and errors as `estimate_relaxation`, with v >= 0.
+    """
+    checks.raise_problems(checks.positive("collision_rate", collision_rate))
+    return _estimate(
+        lambda z: 1.0 / z, v, time, initial, collision_rate, "estimate_relaxation_tail",
+        n_realizations=n_realizations, seed=seed, cut=cut,
+    )  # fmt: skip
+
+
+def _estimate(factor, v, time, initial, collision_rate, name, **sizes):
+    checks.raise_problems(checks.not_negative("time", time))
+    span = collision_rate * time
+    return estimate(factor, 1.0, {"v": v}, span, KAC, initial, name=f"kac.{name}", **sizes)

@@ -4,5 +4,9 @@ import lazy_loader
 
 # Loaded at first use: formulas need no compiler.
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submod_attrs={"moments": ["fourth_moment"]}
+    __name__,
+    submod_attrs={
+        "exact": ["cumulative", "density", "survival"],
+        "moments": ["fourth_moment"],
+    },
 )

@@ -318,5 +318,5 @@ def test_algorithms_differ():
     ],
 )
 def test_wrong_arguments_are_named(given, name):
-    with pytest.raises(ValueError, match=f"^{name} = "):
+    with pytest.raises(ValueError, match=rf"\A{name} = "):
         moments.fourth_moment(**{"time": 2.0, "n_particles": 7} | given)

@@ -1,4 +1,4 @@
-"""Three-dimensional Maxwell molecules from the BKW mode on, by the Kac paper's algorithms."""
+"""Maxwell molecules in three dimensions: the algorithms of the Kac paper for the gas of BKW."""
 
 import lazy_loader
 
@@ -6,7 +6,10 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
+        "constants": ["RATE"],
+        "draws": ["draw"],
         "exact": ["cumulative", "density", "survival"],
         "moments": ["fourth_moment"],
+        "samplers": ["ALGORITHMS"],
     },
 )

@@ -7,6 +7,7 @@ from kacsim.items import _kac, _maxwell
 from kacsim.items._lazy import ancestors, np, plotting, store, xr
 from kacsim.kac.samplers import ENGINES, TITLES
 from kacsim.kac.work import of_velocities
+from kacsim.maxwell.constants import RATE
 
 COMPARED = ("bird", "poisson")  # without a step
 
@@ -63,7 +64,7 @@ def _seconds(settings, grid, shape):
     for place, case in grid.items():
         p = case.parameters
         each = settings["costs"]["nanoseconds"][f"maxwell-{p['algorithm']}-{p['engine']}"]
-        amounts = of_velocities(p)
+        amounts = of_velocities({**p, "collision_rate": RATE})
         if each:
             table[place] = 1e-9 * sum(n * each.get(term, 0.0) for term, n in amounts.items())
     return table
@@ -85,7 +86,7 @@ def reduce(samples, settings):
         variables[name] = described(mean, dims, f"collisions per draw, {name}")
         variables[f"{name}_error"] = described(error, dims, "standard error of the mean")
         variables[f"{name}_seconds"] = described(seconds, dims, "processor time of one draw", "s")
-    exact = [ancestors.expected_collisions(time, n, 1.0) for n in many]
+    exact = [ancestors.expected_collisions(time, n, RATE) for n in many]
     variables |= {
         "whole_ensemble": described([0.5 * n * time for n in few], ("forward_n",), "N t / 2"),
         "ancestral_exact": described(exact, ("n_particles",), "exact mean of the process"),

@@ -152,3 +152,47 @@ def power(change, exponent):
         term = term @ change
         logarithm += term / (k if k % 2 else -k)
     return linalg.expm(exponent * logarithm)
+
+
+@functools.cache
+def with_first(n_particles, pair_rate):
+    """Return the means that |v_1|**4 reaches where particle 1 collides at other rates than others.
+
+    Particle 1, here the label 0, collides with each of the others at the rate 1 / (N - 1), and each
+    pair of these at `pair_rate`.
+
+    Returns
+    -------
+    (products, float64[n, n]), the first being |v_1|**4, and the matrix of their change with time
+    """
+    products, entries = [SMALLEST[0]], {}
+    for row, product in enumerate(products):
+        present = {label for pair in product for label in pair}
+        known, fresh = sorted({0} | present), 1 + max(present)
+        pairs = [(pair, 1.0) for pair in itertools.combinations(known, 2) if present & {*pair}]
+        pairs += [((i, fresh), n_particles - float(len(known))) for i in present]
+        for (i, j), many in pairs:
+            rate = many * (1.0 / (n_particles - 1.0) if i == 0 else pair_rate)
+            if rate > 0.0:
+                change = scattered({product: rate}, {i: 1.0, j: -1.0}, i, j)
+                change[product] -= rate
+                for one, coefficient in change.items():
+                    known_as = _smallest(one)
+                    if known_as not in products:
+                        products.append(known_as)
+                    place = row, products.index(known_as)
+                    entries[place] = entries.get(place, 0.0) + coefficient
+    matrix = np.zeros((len(products), len(products)))
+    for place, entry in entries.items():
+        matrix[place] = entry
+    return tuple(products), matrix
+
+
+def _smallest(product):
+    """Return the first of all products that differ by the names of particles other than 0."""
+    names = sorted({label for pair in product for label in pair} - {0})
+    found = []
+    for order in itertools.permutations(range(1, len(names) + 1)):
+        new = dict(zip(names, order, strict=True)) | {0: 0}
+        found.append(tuple(sorted(tuple(sorted(new[x] for x in pair)) for pair in product)))
+    return min(found)

@@ -10,6 +10,8 @@ collisions. They start at (12.6, 9, 3, 0, 0, 0, 0).
   2**(q + s) (P)_(q + s) (N - 2 P)_u / (N)_k, where (x)_k = x (x - 1) ... (x - k + 1).
 - Nanbu, synchronous: each of k particles collides with probability p and reads a partner at the
   old level, one of the others or a further one, which several may share.
+- Poisson with the printed rate: particle 1 is told from the others, in the means of products that
+  are equal but for the names of these.
 - Nanbu, sequential: `kacsim.maxwell.in_place`, from `LARGEST_TENSOR` on by a polynomial in 1 / N
   through fewer particles and infinitely many (its error is below 1e-8).
 
@@ -25,8 +27,8 @@ from scipy import linalg
 from kacsim import checks
 from kacsim.kac import samplers
 from kacsim.kac.constants import n_steps
-from kacsim.maxwell.contractions import EQUILIBRIUM, INITIAL
-from kacsim.maxwell.exchangeable import disjoint_pairs, generator, old_level, power
+from kacsim.maxwell.contractions import EQUILIBRIUM, INITIAL, kind
+from kacsim.maxwell.exchangeable import disjoint_pairs, generator, old_level, power, with_first
 from kacsim.maxwell.in_place import endless_in_place, in_place
 
 START = EQUILIBRIUM - INITIAL[0]
@@ -69,7 +71,7 @@ def _problems(algorithm, time, n_particles, rate, **own):
     found = list(checks.not_negative("time", time))
     yield from found or samplers.moment_problems(algorithm, time, n_particles, rate, **own)
     if n_particles == math.inf and own and not found and time > 0:
-        found = list(samplers.STEP.problems(own["time_step"]))
+        found = list(checks.positive("time_step", own["time_step"]))
         yield from found or samplers.step_problems(algorithm, time, own["time_step"], rate)
 
 
@@ -77,6 +79,14 @@ def _poisson(n, time, rate):
     if n == math.inf:
         return EQUILIBRIUM - START * math.exp(-rate * time / 3.0)
     return _first(linalg.expm(rate * time * generator(n)))
+
+
+def _poisson_printed(n, time, rate):
+    if n == math.inf or n == 2:
+        return _poisson(n, time, rate)
+    products, change = with_first(n, 1.0 / (n - 2.0))
+    start = [INITIAL[kind(product)] for product in products]
+    return float(linalg.expm(rate * time * change)[0] @ start)
 
 
 def _bird(n, time, rate):
@@ -124,6 +134,7 @@ MOMENTS = {
     "nanbu_babovsky": _nanbu_babovsky,
     "bird": _bird,
     "poisson": _poisson,
+    "poisson_printed": _poisson_printed,
 }
 
 

@@ -12,7 +12,7 @@ from kacsim.items import maxwell_bias, maxwell_cost, maxwell_tvn
 N_DRAWS, N_REPLICATES, TIME = 10**6, 4, 2.0
 NUMBERS, SEVERAL, STEPS = [3, 10], [10, 20], [1.0, 0.5]
 STEPPED = ("nanbu_sequential", "nanbu_synchronous", "nanbu_babovsky")
-ORDER = (*STEPPED, "bird", "poisson")
+ORDER = (*STEPPED, "bird", "poisson", "poisson_printed")
 GRID = {
     "n_particles": NUMBERS,
     "step_n_particles": SEVERAL,
@@ -108,7 +108,7 @@ def test_the_slope_is_that_of_the_bias_against_one_over_n(bias, algorithm, limit
 
 
 def test_departures_are_in_standard_errors(bias):
-    assert bias.departure.size == 5 * 2 + 3 * 2 * 2
+    assert bias.departure.size == 6 * 2 + 3 * 2 * 2
     here = bias.isel(algorithm=0, n_particles=0)
     z = float((here.moment - here.moment_exact) / here.moment_error)
     assert float(bias.departure[0]) == pytest.approx(z)

@@ -1,12 +1,16 @@
 """Samplers of the Kac paper."""
 
+import math
+
 import numpy as np
+from numba import int64
 
 from kacsim.boltzmann.sampling import sample as sample_kac_probe
 from kacsim.kac import draws, perfect, perfect_blocks
 from kacsim.kac.constants import LAGS, LEVELS
 from kacsim.kac.coupling import sample_kac_forward, sample_kac_readings
 from kacsim.kac.replicates import KEPT, algorithm_sums, value_sums
+from kacsim.kernels.jit import kernel
 from kacsim.store import described
 from kacsim.streams import new_stream
 
@@ -118,7 +122,7 @@ def sample_kac_perfect(case, progress):
         count_levels(velocities, energy, n, levels[row], products[row])
         pairs[row] += np.maximum(0, velocities.size - np.arange(1, LAGS + 1))
 
-    variables = _velocity_sums(case, fill, progress)
+    variables = value_sums(case, fill, progress)
     products /= np.maximum(1.0, pairs)
     dims = ("replicate",)
     return variables | {

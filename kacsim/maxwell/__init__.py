@@ -8,6 +8,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "constants": ["RATE"],
         "draws": ["draw"],
+        "exact": ["cumulative", "density", "survival"],
+        "moments": ["fourth_moment"],
         "samplers": ["ALGORITHMS"],
     },
 )

@@ -103,7 +103,7 @@ def test_perfect_draws_are_counted_over_their_range_and_beside_later_ones(energy
     edges = math.sqrt(total) * np.linspace(-1.0, 1.0, 8193)
     for k in range(3):
         stream, blocks = new_stream(case.seed, case.id, k), 0
-        parts = [np.empty(kac_sampling.CHUNK), np.empty(700)]
+        parts = [np.empty(replicates.CHUNK), np.empty(700)]
         for part in parts:
             blocks += perfect_blocks.draw_beginnings(part, 3, total, 4, stream)
         counts = np.histogram(np.concatenate(parts), edges)[0]

@@ -6,5 +6,5 @@ __version__ = "0.3.0"
 
 # Loaded at first use, so that planning stays light.
 __getattr__, __dir__, __all__ = lazy_loader.attach(
-    __name__, submodules=["boltzmann", "kac", "techniques"]
+    __name__, submodules=["boltzmann", "kac", "maxwell", "techniques"]
 )

@@ -211,6 +211,45 @@ def unit_circle(stream):
 
 
 @inlined
+def direction(stream):
+    """Return (x, y, z) of a uniform point on the sphere: z is uniform (Archimedes)."""
+    z = _height(next_bits(stream))
+    cos, sin = unit_circle(stream)
+    radius = math.sqrt(1.0 - z * z)
+    return radius * cos, radius * sin, z
+
+
+@inlined
+def _height(bits):
+    """Return a uniform float64 on [-1, 1), a multiple of 2**-52."""
+    return int64(bits >> uint64(11)) * (2.0 * UNIT) - 1.0
+
+
+@inlined
+def directions(x, y, z, n, stream):
+    """Set the first n places to independent `direction`s: all z first, then all angles."""
+    done = 0
+    while done < n:
+        start, stop = next_block(n - done, stream)
+        words, block = stream[start:stop], z[done : done + stop - start]
+        for k in range(block.size):
+            block[k] = _height(words[k])
+        done += block.size
+    done = 0
+    while done < n:
+        start, stop = next_block(n - done, stream)
+        end = done + stop - start
+        words, at_x, at_y, at_z = stream[start:stop], x[done:end], y[done:end], z[done:end]
+        for k in range(at_z.size):
+            place, cos, sin = _turned(words[k])
+            radius = math.sqrt(1.0 - at_z[k] * at_z[k])
+            x0, y0 = COS_SIN[place], COS_SIN[place + uint64(1)]
+            at_x[k] = radius * (x0 * cos - y0 * sin)
+            at_y[k] = radius * (y0 * cos + x0 * sin)
+        done = end
+
+
+@inlined
 def squared_cosine(stream):
     """Return cos(theta)**2 of a uniform angle, (1 + cos(2 theta)) / 2: a Beta(1/2, 1/2) variate."""
     return _squared(next_bits(stream))

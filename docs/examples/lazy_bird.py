@@ -7,8 +7,7 @@ import math
 
 import numpy as np
 
-from kacsim.kac import bird
-from kacsim.kac.model import collide, initial_velocity
+from kacsim.kac import bird, model
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
@@ -39,12 +38,12 @@ def forward(velocities, own, n_particles, n_picked, chance, stream):
     simulated = 0
     for draw in range(velocities.size):
         for i in range(n_particles):
-            v[i] = initial_velocity(stream)
+            model.start(v, i, stream)
         touched = 0
         for _ in range(n_picked):
             if uniform(stream) < chance:
                 i, j = pair_below(n_particles, stream)
-                collide(v, i, j, stream)
+                model.collide(v, i, j, stream)
                 touched += (i == 0) + (j == 0)
                 simulated += 1
         velocities[draw] = v[0]
@@ -73,7 +72,7 @@ def history(arguments, scales, tape, start, root, stream):
     return bird.history((n_particles, n_picked), scales, tape, start, root, stream)
 
 
-ancestral = ancestral_draws(prepare, history)
+ancestral = ancestral_draws(model, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate, laziness):

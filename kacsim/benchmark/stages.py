@@ -11,6 +11,7 @@ import numpy as np
 
 from kacsim.benchmark.timing import draws_for, medians
 from kacsim.benchmark.work import ALGORITHMS, kac_arguments
+from kacsim.kac import model
 from kacsim.kac.constants import RATE
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import inlined
@@ -36,9 +37,19 @@ class Stages(NamedTuple):
     signs: float
 
 
-@inlined
-def no_replay(tape, n_events):
-    """Leave energies as they are."""
+def no_replay(law):
+    """Return a replay that leaves states as they are."""
+
+    @inlined
+    def replay(tape, state, n_events):
+        pass
+
+    return replay
+
+
+def without_replay(module):
+    """Return the ancestral kernel of an algorithm of Kac's model that replays nothing."""
+    return ancestral_draws(model, module.prepare, module.history, no_replay)
 
 
 def of(draw, without_replay, pieces):
@@ -61,7 +72,7 @@ def measure(algorithm, pieces, repeats):
     module = importlib.import_module(f"kacsim.kac.{algorithm}")
     arguments = module.arguments(**kac_arguments(algorithm, N_PARTICLES, RATE))
     stream = new_stream(1, "benchmark")
-    kernels = module.ancestral, ancestral_draws(module.prepare, module.history, no_replay)
+    kernels = module.ancestral, without_replay(module)
 
     def call(kernel, n):
         kernel(np.empty(n), np.empty(n, np.int64), *arguments, stream)

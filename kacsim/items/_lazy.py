@@ -5,6 +5,7 @@ from kacsim.kernels.lookup import lazy
 np = lazy("numpy")
 xr = lazy("xarray")
 kac = lazy("kacsim.kac")
+maxwell = lazy("kacsim.maxwell")
 ancestors = lazy("kacsim.kac.ancestors")
 bkw = lazy("kacsim.boltzmann.bkw")
 extinction = lazy("kacsim.boltzmann.extinction")

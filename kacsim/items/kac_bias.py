@@ -69,8 +69,10 @@ def cases(settings):
 
 def reduce(samples, settings):
     """Return measured and exact fourth moments, and the collisions that Poisson spares."""
-    by_n = _moments(samples, particle_grid(settings), ALGORITHMS, settings["n_particles"])
-    by_step = _moments(samples, step_grid(settings), STEPPED, settings["time_step"])
+    shape = len(ALGORITHMS), len(settings["n_particles"])
+    by_n = _kac.moment_table(samples, particle_grid(settings), shape)
+    shape = len(STEPPED), len(settings["time_step"])
+    by_step = _kac.moment_table(samples, step_grid(settings), shape)
     described, variables = store.described, {}
     names = ("moment", "moment_error", "moment_exact")
     texts = ("mean of v_1**4", "standard error of the mean of v_1**4", "exact mean of v_1**4")
@@ -94,15 +96,6 @@ def reduce(samples, settings):
         "time_step": settings["time_step"],
     }
     return xr.Dataset(variables, coords={key: (key, values) for key, values in coords.items()})
-
-
-def _moments(samples, grid, rows, columns):
-    """Return (measured, error, exact), each float64[rows, columns]."""
-    table = np.full((3, len(rows), len(columns)), np.nan)
-    for place, case in grid.items():
-        mean = _kac.fourth_moment_of(samples[case.id], case)
-        table[(slice(None), *place)] = mean.value, mean.standard_error, _kac.exact_moment(case)
-    return table
 
 
 def _step_tvn(samples, settings):

@@ -59,15 +59,6 @@ def cases(settings):
     return [case for grid in grids for case in grid.values()]
 
 
-def _counts(samples, grid, shape):
-    """Return (mean collisions per draw, standard error), each float64[shape]."""
-    table = np.full((2, *shape), np.nan)
-    for place, case in grid.items():
-        mean = estimate.of_replicates(samples[case.id]["collisions"].values)
-        table[(slice(None), *place)] = mean.value, mean.standard_error
-    return table
-
-
 def problems(settings):
     """Return numbers of particles of the claim that are not drawn."""
     return _kac.subset(settings, "claim_n_particles", of="forward_n_particles")
@@ -79,9 +70,9 @@ def reduce(samples, settings):
     many = [*map(float, settings["n_particles"]), math.inf]
     times, time = settings["growth_time"], settings["time"]
     span, n = RATE * time, settings["fixed_n_particles"]
-    forward = _counts(samples, _forward_grid(settings), (len(FORWARD), few.size))
-    ancestral = _counts(samples, _ancestral_grid(settings), (len(ANCESTRAL), len(many)))
-    growth = _counts(samples, _time_grid(settings), (len(times),))
+    forward = _kac.count_table(samples, _forward_grid(settings), (len(FORWARD), few.size))
+    ancestral = _kac.count_table(samples, _ancestral_grid(settings), (len(ANCESTRAL), len(many)))
+    growth = _kac.count_table(samples, _time_grid(settings), (len(times),))
     never = -math.expm1(-span)
     whole = few * span / 2
     described = store.described

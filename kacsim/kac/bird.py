@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.kac.model import collide, initial_velocity
+from kacsim.kac import model
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
@@ -20,33 +20,44 @@ def arguments(*, n_particles, time, collision_rate):
     return n_particles, math.ceil(collision_rate * n_particles * time / 2)
 
 
-@kernel
-def forward(velocities, own, n_particles, n_collisions, stream):
-    """Draw v_1(t) from whole ensembles, as published.
+def forward_draws(law):
+    """Return the kernel that draws v_1(t) from whole ensembles.
 
     Parameters
     ----------
-    velocities : float64[n], overwritten by independent draws of v_1
-    own : int64[n], overwritten by the number of collisions of particle 1
-    n_particles, n_collisions : int, from `arguments`
-    stream : from `new_stream`, advanced
-
-    Returns
-    -------
-    int, collisions simulated
+    law : module of the law of collisions, such as `kacsim.kac.model`
     """
-    v = np.empty(n_particles)
-    for draw in range(velocities.size):
-        for i in range(n_particles):
-            v[i] = initial_velocity(stream)
-        touched = 0
-        for _ in range(n_collisions):
-            i, j = pair_below(n_particles, stream)
-            collide(v, i, j, stream)
-            touched += (i == 0) + (j == 0)
-        velocities[draw] = v[0]
-        own[draw] = touched
-    return velocities.size * n_collisions
+    ensemble, start, collide, copy = law.ensemble, law.start, law.collide, law.copy
+
+    @kernel
+    def forward(velocities, own, n_particles, n_collisions, stream):
+        """Draw v_1(t) from whole ensembles, as published.
+
+        Parameters
+        ----------
+        velocities : float64[n] or float64[n, 3], overwritten by independent draws of v_1
+        own : int64[n], overwritten by the number of collisions of particle 1
+        n_particles, n_collisions : int, from `arguments`
+        stream : from `new_stream`, advanced
+
+        Returns
+        -------
+        int, collisions simulated
+        """
+        v = ensemble(n_particles)
+        for draw in range(len(velocities)):
+            for i in range(n_particles):
+                start(v, i, stream)
+            touched = 0
+            for _ in range(n_collisions):
+                i, j = pair_below(n_particles, stream)
+                collide(v, i, j, stream)
+                touched += (i == 0) + (j == 0)
+            copy(velocities, draw, v, 0)
+            own[draw] = touched
+        return len(velocities) * n_collisions
+
+    return forward
 
 
 @inlined
@@ -95,7 +106,8 @@ def history(arguments, scales, tape, start, root, stream):
         n += 1
 
 
-ancestral = ancestral_draws(prepare, history)
+forward = forward_draws(model)
+ancestral = ancestral_draws(model, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate):

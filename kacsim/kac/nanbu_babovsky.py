@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numba import int64
 
+from kacsim.kac import model
 from kacsim.kac.constants import n_steps
-from kacsim.kac.model import collide, initial_velocity
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
@@ -18,44 +18,55 @@ def arguments(*, n_particles, time, time_step, collision_rate):
     return n_particles, n_steps(time, time_step), collision_rate * n_particles * time_step / 2
 
 
-@kernel
-def forward(velocities, own, n_particles, steps, mean_pairs, stream):
-    """Draw v_1(t) from whole ensembles, as published.
-
-    At each step Round[mean_pairs] pairs are drawn without replacement, by a partial shuffle.
+def forward_draws(law):
+    """Return the kernel that draws v_1(t) from whole ensembles.
 
     Parameters
     ----------
-    velocities : float64[n], overwritten by independent draws of v_1
-    own : int64[n], overwritten by the number of collisions of particle 1
-    n_particles, steps, mean_pairs : from `arguments`
-    stream : from `new_stream`, advanced
-
-    Returns
-    -------
-    int, collisions simulated
+    law : module of the law of collisions, such as `kacsim.kac.model`
     """
-    v = np.empty(n_particles)
-    order = np.arange(n_particles)
-    whole = int64(mean_pairs)
-    simulated = 0
-    for draw in range(velocities.size):
-        for i in range(n_particles):
-            v[i] = initial_velocity(stream)
-        touched = 0
-        for _ in range(steps):
-            pairs = whole + int64(uniform(stream) < mean_pairs - whole)
-            for k in range(2 * pairs):
-                chosen = k + index_below(n_particles - k, stream)
-                order[k], order[chosen] = order[chosen], order[k]
-            for k in range(pairs):
-                i, j = order[2 * k], order[2 * k + 1]
-                collide(v, i, j, stream)
-                touched += (i == 0) + (j == 0)
-            simulated += pairs
-        velocities[draw] = v[0]
-        own[draw] = touched
-    return simulated
+    ensemble, start, collide, copy = law.ensemble, law.start, law.collide, law.copy
+
+    @kernel
+    def forward(velocities, own, n_particles, steps, mean_pairs, stream):
+        """Draw v_1(t) from whole ensembles, as published.
+
+        At each step Round[mean_pairs] pairs are drawn without replacement, by a partial shuffle.
+
+        Parameters
+        ----------
+        velocities : float64[n] or float64[n, 3], overwritten by independent draws of v_1
+        own : int64[n], overwritten by the number of collisions of particle 1
+        n_particles, steps, mean_pairs : from `arguments`
+        stream : from `new_stream`, advanced
+
+        Returns
+        -------
+        int, collisions simulated
+        """
+        v = ensemble(n_particles)
+        order = np.arange(n_particles)
+        whole = int64(mean_pairs)
+        simulated = 0
+        for draw in range(len(velocities)):
+            for i in range(n_particles):
+                start(v, i, stream)
+            touched = 0
+            for _ in range(steps):
+                pairs = whole + int64(uniform(stream) < mean_pairs - whole)
+                for k in range(2 * pairs):
+                    chosen = k + index_below(n_particles - k, stream)
+                    order[k], order[chosen] = order[chosen], order[k]
+                for k in range(pairs):
+                    i, j = order[2 * k], order[2 * k + 1]
+                    collide(v, i, j, stream)
+                    touched += (i == 0) + (j == 0)
+                simulated += pairs
+            copy(velocities, draw, v, 0)
+            own[draw] = touched
+        return simulated
+
+    return forward
 
 
 @allocating
@@ -176,7 +187,8 @@ def history(arguments, prepared, tape, start, root, stream):
         own += int64(lead == 0)
 
 
-ancestral = ancestral_draws(prepare, history)
+forward = forward_draws(model)
+ancestral = ancestral_draws(model, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, time_step, collision_rate):

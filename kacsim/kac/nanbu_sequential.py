@@ -3,7 +3,7 @@
 import numpy as np
 from numba import int64
 
-from kacsim.kac.model import deflect, initial_velocity
+from kacsim.kac import model
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
 from kacsim.kac.tape import ancestral_draws
@@ -13,38 +13,49 @@ from kacsim.variates import failures_before_success, gap_scale
 __all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
 
 
-@kernel
-def forward(velocities, own, n_particles, steps, probability, stream):
-    """Draw v_1(t) from whole ensembles, updated in place for i = 1..N.
+def forward_draws(law):
+    """Return the kernel that draws v_1(t) from whole ensembles.
 
     Parameters
     ----------
-    velocities : float64[n], overwritten by independent draws of v_1
-    own : int64[n], overwritten by the number of velocity changes of particle 1
-    n_particles, steps, probability : from `arguments`
-    stream : from `new_stream`, advanced
-
-    Returns
-    -------
-    int, collisions simulated
+    law : module of the law of collisions, such as `kacsim.kac.model`
     """
-    v = np.empty(n_particles)
-    scale = gap_scale(probability)
-    simulated = 0
-    for draw in range(velocities.size):
-        for i in range(n_particles):
-            v[i] = initial_velocity(stream)
-        touched = 0
-        trial = int64(failures_before_success(scale, stream))
-        while trial < n_particles * steps:
-            i = trial % n_particles
-            v[i] = deflect(v[i], v[partner_of(i, n_particles, stream)], stream)
-            touched += i == 0
-            simulated += 1
-            trial += 1 + int64(failures_before_success(scale, stream))
-        velocities[draw] = v[0]
-        own[draw] = touched
-    return simulated
+    ensemble, start, deflect, copy = law.ensemble, law.start, law.deflect, law.copy
+
+    @kernel
+    def forward(velocities, own, n_particles, steps, probability, stream):
+        """Draw v_1(t) from whole ensembles, updated in place for i = 1..N.
+
+        Parameters
+        ----------
+        velocities : float64[n] or float64[n, 3], overwritten by independent draws of v_1
+        own : int64[n], overwritten by the number of velocity changes of particle 1
+        n_particles, steps, probability : from `arguments`
+        stream : from `new_stream`, advanced
+
+        Returns
+        -------
+        int, collisions simulated
+        """
+        v = ensemble(n_particles)
+        scale = gap_scale(probability)
+        simulated = 0
+        for draw in range(len(velocities)):
+            for i in range(n_particles):
+                start(v, i, stream)
+            touched = 0
+            trial = int64(failures_before_success(scale, stream))
+            while trial < n_particles * steps:
+                i = trial % n_particles
+                deflect(v, i, v, i, partner_of(i, n_particles, stream), stream)
+                touched += i == 0
+                simulated += 1
+                trial += 1 + int64(failures_before_success(scale, stream))
+            copy(velocities, draw, v, 0)
+            own[draw] = touched
+        return simulated
+
+    return forward
 
 
 @inlined
@@ -100,15 +111,20 @@ def history(arguments, prepared, tape, start, root, stream):
         gap = int64(failures_before_success(scale, stream))
 
 
-@inlined
-def replay_in_place(tape, n_events):
-    """Replay collisions that change the first particle of the pair only, in order."""
-    for event in range(n_events - 1, -1, -1):
-        i = tape.first[event]
-        tape.energy[i] = (tape.energy[i] + tape.energy[tape.second[event]]) * tape.part[event]
+def in_place(law):
+    """Return the replay of collisions that change the first particle of the pair only, in order."""
+    receive = law.receive
+
+    @inlined
+    def replay(tape, state, n_events):
+        for event in range(n_events - 1, -1, -1):
+            receive(state, tape.first[event], tape.second[event], event)
+
+    return replay
 
 
-ancestral = ancestral_draws(prepare, history, replay_in_place)
+forward = forward_draws(model)
+ancestral = ancestral_draws(model, prepare, history, in_place)
 
 
 def fourth_moment(**process):

@@ -3,7 +3,7 @@
 import numpy as np
 from numba import int64
 
-from kacsim.kac.model import deflect, initial_velocity
+from kacsim.kac import model
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
 from kacsim.kac.tape import ancestral_draws
@@ -13,38 +13,49 @@ from kacsim.variates import failures_before_success, gap_scale
 __all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
 
 
-@kernel
-def forward(velocities, own, n_particles, steps, probability, stream):
-    """Draw v_1(t) from whole ensembles, partners read at the old time level.
+def forward_draws(law):
+    """Return the kernel that draws v_1(t) from whole ensembles.
 
-    Parameters and result as `kacsim.kac.nanbu_sequential.forward`.
+    Parameters
+    ----------
+    law : module of the law of collisions, such as `kacsim.kac.model`
     """
-    v = np.empty(n_particles)
-    changed, new = np.empty(n_particles, np.int64), np.empty(n_particles)
-    scale = gap_scale(probability)
-    simulated = 0
-    for draw in range(velocities.size):
-        for i in range(n_particles):
-            v[i] = initial_velocity(stream)
-        touched, pending, step = 0, 0, 0
-        trial = int64(failures_before_success(scale, stream))
-        while trial < n_particles * steps:
-            if trial // n_particles > step:
-                for k in range(pending):
-                    v[changed[k]] = new[k]
-                pending, step = 0, trial // n_particles
-            i = trial - step * n_particles
-            changed[pending] = i
-            new[pending] = deflect(v[i], v[partner_of(i, n_particles, stream)], stream)
-            pending += 1
-            touched += i == 0
-            simulated += 1
-            trial += 1 + int64(failures_before_success(scale, stream))
-        for k in range(pending):
-            v[changed[k]] = new[k]
-        velocities[draw] = v[0]
-        own[draw] = touched
-    return simulated
+    ensemble, start, deflect, copy = law.ensemble, law.start, law.deflect, law.copy
+
+    @kernel
+    def forward(velocities, own, n_particles, steps, probability, stream):
+        """Draw v_1(t) from whole ensembles, partners read at the old time level.
+
+        Parameters and result as `kacsim.kac.nanbu_sequential.forward`.
+        """
+        v = ensemble(n_particles)
+        changed, new = np.empty(n_particles, np.int64), ensemble(n_particles)
+        scale = gap_scale(probability)
+        simulated = 0
+        for draw in range(len(velocities)):
+            for i in range(n_particles):
+                start(v, i, stream)
+            touched, pending, step = 0, 0, 0
+            trial = int64(failures_before_success(scale, stream))
+            while trial < n_particles * steps:
+                if trial // n_particles > step:
+                    for k in range(pending):
+                        copy(v, changed[k], new, k)
+                    pending, step = 0, trial // n_particles
+                i = trial - step * n_particles
+                changed[pending] = i
+                deflect(new, pending, v, i, partner_of(i, n_particles, stream), stream)
+                pending += 1
+                touched += i == 0
+                simulated += 1
+                trial += 1 + int64(failures_before_success(scale, stream))
+            for k in range(pending):
+                copy(v, changed[k], new, k)
+            copy(velocities, draw, v, 0)
+            own[draw] = touched
+        return simulated
+
+    return forward
 
 
 @inlined
@@ -84,35 +95,34 @@ def history(arguments, scale, tape, start, root, stream):
         gap = int64(failures_before_success(scale, stream))
 
 
-@inlined
-def replay_steps(tape, n_events):
-    """Replay collisions that change the first of the pair only, each step at its old level.
+def at_old_level(law):
+    """Return the replay of collisions that change the first of the pair only, by whole steps.
 
     Two draws' collisions share no slot, so that it does no harm if a step runs into another draw's.
     """
-    last = n_events - 1
-    while last >= 0:
-        first = last
-        while first > 0 and tape.mark[first - 1] == tape.mark[last]:
-            first -= 1
-        if first == last:
-            tape.energy[tape.first[last]] = after(tape, last)
-        else:
-            for event in range(first, last + 1):
-                tape.new[event] = after(tape, event)
-            for event in range(first, last + 1):
-                tape.energy[tape.first[event]] = tape.new[event]
-        last = first - 1
+    receive, foresee, settle = law.receive, law.foresee, law.settle
+
+    @inlined
+    def replay(tape, state, n_events):
+        last = n_events - 1
+        while last >= 0:
+            first = last
+            while first > 0 and tape.mark[first - 1] == tape.mark[last]:
+                first -= 1
+            if first == last:
+                receive(state, tape.first[last], tape.second[last], last)
+            else:
+                for event in range(first, last + 1):
+                    foresee(state, tape.first[event], tape.second[event], event)
+                for event in range(first, last + 1):
+                    settle(state, tape.first[event], event)
+            last = first - 1
+
+    return replay
 
 
-@inlined
-def after(tape, event):
-    """Return the energy of the first particle of the pair after a collision."""
-    total = tape.energy[tape.first[event]] + tape.energy[tape.second[event]]
-    return total * tape.part[event]
-
-
-ancestral = ancestral_draws(prepare, history, replay_steps)
+forward = forward_draws(model)
+ancestral = ancestral_draws(model, prepare, history, at_old_level)
 
 
 def fourth_moment(**process):

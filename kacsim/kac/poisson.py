@@ -11,7 +11,7 @@ import numpy as np
 from numba import int64
 
 from kacsim.elementary.exponential import expm1
-from kacsim.kac.model import collide, initial_velocity
+from kacsim.kac import model
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
@@ -44,47 +44,58 @@ def unit_arrivals(mean, stream):
     return number
 
 
-@kernel
-def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
-    """Draw v_1(t) from whole ensembles, as published.
-
-    The sorted uniform times of particle 1's K collisions are drawn one after another: the first
-    of k uniform times on a span ends at the fraction 1 - U**(1/k) of it.
+def forward_draws(law):
+    """Return the kernel that draws v_1(t) from whole ensembles.
 
     Parameters
     ----------
-    velocities : float64[n], overwritten by independent draws of v_1
-    own : int64[n], overwritten by the number of collisions of particle 1
-    n_particles, mean_own, pair_rate : from `arguments`
-    stream : from `new_stream`, advanced
-
-    Returns
-    -------
-    int, collisions simulated
+    law : module of the law of collisions, such as `kacsim.kac.model`
     """
-    v = np.empty(n_particles)
-    others = n_particles - 1
-    others_rate = pair_rate * others * (others - 1) / 2
-    simulated = 0
-    for draw in range(velocities.size):
-        for i in range(n_particles):
-            v[i] = initial_velocity(stream)
-        n_own = unit_arrivals(mean_own, stream)
-        span = mean_own
-        for k in range(n_own, 0, -1):
-            gap = -span * expm1(-exponential(stream) / k)
-            span -= gap
-            clock = exponential(stream)
-            while clock < others_rate * gap:
-                i, j = pair_below(others, stream)
-                collide(v, i + 1, j + 1, stream)
-                simulated += 1
-                clock += exponential(stream)
-            collide(v, 0, index_below(others, stream) + 1, stream)
-        velocities[draw] = v[0]
-        own[draw] = n_own
-        simulated += n_own
-    return simulated
+    ensemble, start, collide, copy = law.ensemble, law.start, law.collide, law.copy
+
+    @kernel
+    def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
+        """Draw v_1(t) from whole ensembles, as published.
+
+        The sorted uniform times of particle 1's K collisions are drawn one after another: the first
+        of k uniform times on a span ends at the fraction 1 - U**(1/k) of it.
+
+        Parameters
+        ----------
+        velocities : float64[n] or float64[n, 3], overwritten by independent draws of v_1
+        own : int64[n], overwritten by the number of collisions of particle 1
+        n_particles, mean_own, pair_rate : from `arguments`
+        stream : from `new_stream`, advanced
+
+        Returns
+        -------
+        int, collisions simulated
+        """
+        v = ensemble(n_particles)
+        others = n_particles - 1
+        others_rate = pair_rate * others * (others - 1) / 2
+        simulated = 0
+        for draw in range(len(velocities)):
+            for i in range(n_particles):
+                start(v, i, stream)
+            n_own = unit_arrivals(mean_own, stream)
+            span = mean_own
+            for k in range(n_own, 0, -1):
+                gap = -span * expm1(-exponential(stream) / k)
+                span -= gap
+                clock = exponential(stream)
+                while clock < others_rate * gap:
+                    i, j = pair_below(others, stream)
+                    collide(v, i + 1, j + 1, stream)
+                    simulated += 1
+                    clock += exponential(stream)
+                collide(v, 0, index_below(others, stream) + 1, stream)
+            copy(velocities, draw, v, 0)
+            own[draw] = n_own
+            simulated += n_own
+        return simulated
+
+    return forward
 
 
 @allocating
@@ -126,7 +137,8 @@ def history(arguments, pauses, tape, start, root, stream):
         n += 1
 
 
-ancestral = ancestral_draws(prepare, history)
+forward = forward_draws(model)
+ancestral = ancestral_draws(model, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate):

@@ -8,6 +8,7 @@ import numpy as np
 from numba import int64
 from scipy import linalg
 
+from kacsim.kac import model
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.poisson import forward
 from kacsim.kac.tape import ancestral_draws
@@ -62,7 +63,7 @@ def history(arguments, pauses, tape, start, root, stream):
         n += 1
 
 
-ancestral = ancestral_draws(prepare, history)
+ancestral = ancestral_draws(model, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate, pair_rate=None):

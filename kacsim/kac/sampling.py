@@ -1,8 +1,4 @@
-"""Samplers of the Kac paper: replicates streamed into counts, moments and a few raw values.
-
-Memory does not grow with the number of draws: a kernel fills a buffer of `CHUNK` draws, the
-buffer is added to the sums, and is filled again.
-"""
+"""Samplers of the Kac paper."""
 
 import math
 
@@ -13,10 +9,10 @@ from kacsim.boltzmann.sampling import sample as sample_kac_probe
 from kacsim.kac import draws, perfect, perfect_blocks
 from kacsim.kac.constants import LAGS, LEVELS
 from kacsim.kac.coupling import sample_kac_forward, sample_kac_readings
+from kacsim.kac.replicates import KEPT, algorithm_sums, value_sums
 from kacsim.kernels.jit import kernel
-from kacsim.statistics.histogram import FINE_BINS, FINE_LIMIT, FINE_WIDTH, fine_edges
 from kacsim.store import described
-from kacsim.streams import CHUNK, new_stream
+from kacsim.streams import new_stream
 
 __all__ = [
     "KEPT",
@@ -29,100 +25,20 @@ __all__ = [
     "sample_kac_readings",
 ]
 
-ORDERS = (2, 4, 6, 8)
-KEPT = 100_000
-
-
-@kernel
-def accumulate(values, counts, sums, kept, n_kept, keep_above):
-    """Add draws to the sums of one replicate.
-
-    Parameters
-    ----------
-    values : float64[n], draws
-    counts : int64[FINE_BINS + 2], fine histogram with two tails, modified in place
-    sums : float64[4], sums of v**2, v**4, v**6, v**8, modified in place
-    kept : float64[m], raw values above `keep_above`, filled from place n_kept on
-    n_kept, keep_above : int, float
-
-    Returns
-    -------
-    int, the new number of kept values
-    """
-    scale = 1.0 / FINE_WIDTH
-    for v in values:
-        above = (v + FINE_LIMIT) * scale
-        place = 1 + int64(min(above, FINE_BINS)) if above >= 0.0 else 0
-        counts[place] += 1
-        square = v * v
-        sums[0] += square
-        sums[1] += square**2
-        sums[2] += square**3
-        sums[3] += square**4
-        if n_kept < kept.size and v > keep_above:
-            kept[n_kept] = v
-            n_kept += 1
-    return n_kept
-
-
-def _velocity_sums(case, fill, progress):
-    """Stream all replicates through `fill(velocities, row, stream)`; return variables."""
-    p = case.parameters
-    rows = len(case.replicates)
-    counts = np.zeros((rows, FINE_BINS + 2), np.int64)
-    sums = np.zeros((rows, len(ORDERS)))
-    keep_above = p.get("keep_above")
-    kept = np.empty(min(KEPT, case.n_draws * rows))
-    n_kept, done = 0, 0
-    for row, replicate in enumerate(case.replicates):
-        stream = new_stream(case.seed, case.id, replicate)
-        for start in range(0, case.n_draws, CHUNK):
-            velocities = np.empty(min(CHUNK, case.n_draws - start))
-            fill(velocities, row, stream)
-            threshold = -math.inf if keep_above is None else keep_above
-            n_kept = accumulate(velocities, counts[row], sums[row], kept, n_kept, threshold)
-            done += velocities.size
-            progress(done)
-    sums /= case.n_draws
-    return {
-        "counts": described(counts, ("replicate", "bin"), "draws per bin, first and last: tails"),
-        "moment": described(sums, ("replicate", "order"), "mean of v_1 to the power"),
-        "kept_velocity": described(
-            kept[:n_kept], ("kept",), "first values of v_1 above the keeping threshold"
-        ),
-        "order": described(ORDERS, ("order",), "power"),
-        "edge": described(fine_edges(), ("edge",), "bin edges of v_1"),
-    }
-
 
 def sample_kac(case, progress):
     """Draw v_1(t) by one algorithm on one engine (Kac paper, section 4).
 
     Returns
     -------
-    dict of counts[replicate, bin], moment[replicate, order], kept_velocity[kept],
-    collisions and own_collisions[replicate] (means per draw), own_variance[replicate]
+    dict as of `kacsim.kac.replicates.algorithm_sums`
     """
     draw_kernel, arguments = draws.kernel_of(case.parameters)
-    rows = len(case.replicates)
-    collisions = np.zeros(rows)
-    own_sums = np.zeros((2, rows))
 
-    def fill(velocities, row, stream):
-        own = np.empty(velocities.size, np.int64)
-        collisions[row] += draw_kernel(velocities, own, *arguments, stream)
-        own_sums[:, row] += own.sum(), (own * own).sum()
+    def fill(velocities, own, row, stream):
+        return draw_kernel(velocities, own, *arguments, stream)
 
-    variables = _velocity_sums(case, fill, progress)
-    mean, square = own_sums / case.n_draws
-    dims = ("replicate",)
-    return variables | {
-        "collisions": described(collisions / case.n_draws, dims, "collisions simulated per draw"),
-        "own_collisions": described(mean, dims, "mean collisions of particle 1"),
-        "own_variance": described(
-            square - mean**2, dims, "variance of the collisions of particle 1"
-        ),
-    }
+    return algorithm_sums(case, fill, progress)
 
 
 def sample_kac_equilibrium(case, progress):
@@ -151,7 +67,7 @@ def sample_kac_equilibrium(case, progress):
         kept[filled : filled + room] = times[:room]
         filled += room
 
-    variables = _velocity_sums(case, fill, progress)
+    variables = value_sums(case, fill, progress)
     mean, square = sums / case.n_draws
     dims, units = ("replicate",), "steps"
     return variables | {
@@ -206,7 +122,7 @@ def sample_kac_perfect(case, progress):
         count_levels(velocities, energy, n, levels[row], products[row])
         pairs[row] += np.maximum(0, velocities.size - np.arange(1, LAGS + 1))
 
-    variables = _velocity_sums(case, fill, progress)
+    variables = value_sums(case, fill, progress)
     products /= np.maximum(1.0, pairs)
     dims = ("replicate",)
     return variables | {

@@ -198,26 +198,45 @@ def flat(lots):
     return list(itertools.chain.from_iterable(lots))
 
 
-def together(energies, lots, shares):
-    """Share the energies of pairs, earliest collision (the last event) first."""
-    for (i, j), share in reversed(list(zip(flat(lots), shares, strict=True))):
-        total = energies[i] + energies[j]
-        energies[i], energies[j] = total * share, total * (1 - share)
+class Line:
+    """Kac's model: energies, and the share of one of a pair."""
+
+    @staticmethod
+    def starts(n, stream):
+        return variate_twins.energies(n, stream)
+
+    @staticmethod
+    def inputs(n, stream):
+        return [random.squared_cosine(stream) for _ in range(n)]
+
+    @staticmethod
+    def collided(a, b, share):
+        return (a + b) * share, (a + b) * (1 - share)
+
+    @staticmethod
+    def value(energy, stream):
+        return math.sqrt(energy) * random.random_sign(stream)
 
 
-def one_after_another(energies, lots, shares):
+def together(law, states, lots, inputs):
+    """Change both of each pair, earliest collision (the last event) first."""
+    for (i, j), one in reversed(list(zip(flat(lots), inputs, strict=True))):
+        states[i], states[j] = law.collided(states[i], states[j], one)
+
+
+def one_after_another(law, states, lots, inputs):
     """Change the first of each pair."""
-    for (i, j), share in reversed(list(zip(flat(lots), shares, strict=True))):
-        energies[i] = (energies[i] + energies[j]) * share
+    for (i, j), one in reversed(list(zip(flat(lots), inputs, strict=True))):
+        states[i] = law.collided(states[i], states[j], one)[0]
 
 
-def at_once(energies, lots, shares):
+def at_once(law, states, lots, inputs):
     """Change the first of each pair, reading both at the old level of the step."""
-    shares = list(shares)
+    inputs = list(inputs)
     for events in reversed(lots):
-        old = list(energies)
+        old = list(states)
         for i, j in reversed(events):
-            energies[i] = (old[i] + old[j]) * shares.pop()
+            states[i] = law.collided(old[i], old[j], inputs.pop())[0]
 
 
 REPLAYS = {nanbu_sequential: one_after_another, nanbu_synchronous: at_once}
@@ -233,7 +252,7 @@ def histories(history, arguments, most, capacity, stream):
     return found
 
 
-def draws(history, arguments, n_draws, stream):
+def draws(history, arguments, n_draws, stream, law=Line):
     """Return [(v_1, own collisions, collisions)] and [(capacity, used)] of tapes too small.
 
     A batch of which one history does not fit is drawn again, from its beginning.
@@ -249,13 +268,13 @@ def draws(history, arguments, n_draws, stream):
             stream[:] = before
             capacity *= 2
             continue
-        energies = iter(variate_twins.energies(sum(members for _, members in batch), stream))
+        states = iter(law.starts(sum(members for _, members in batch), stream))
         pairs = [flat(lots) for lots, _ in batch]
-        shares = [[random.squared_cosine(stream) for _ in events] for events in pairs]
-        for (lots, members), events, parts in zip(batch, pairs, shares, strict=True):
-            own = [next(energies) for _ in range(members)]
-            replay(own, lots, parts)
-            v = math.sqrt(own[0]) * random.random_sign(stream)
+        inputs = iter(law.inputs(sum(map(len, pairs)), stream))
+        for (lots, members), events in zip(batch, pairs, strict=True):
+            own = [next(states) for _ in range(members)]
+            replay(law, own, lots, [next(inputs) for _ in events])
+            v = law.value(own[0], stream)
             changed = [pair if replay is together else pair[:1] for pair in events]
             rows.append((v, sum(0 in particles for particles in changed), len(events)))
     return rows, refused

@@ -12,35 +12,47 @@ from ancestral_twins import Trials, other_than
 from kacsim import variates as random
 
 
-def ensemble(n, stream):
-    return [random.maxwell_speed(stream) * random.random_sign(stream) for _ in range(n)]
+class Line:
+    """Kac's model."""
+
+    @staticmethod
+    def start(stream):
+        return random.maxwell_speed(stream) * random.random_sign(stream)
+
+    @staticmethod
+    def collided(a, b, stream):
+        """Return what both of a pair have after a collision."""
+        cos, sin = random.unit_circle(stream)
+        return a * cos + b * sin, b * cos - a * sin
 
 
-def rotate(v, i, j, stream):
-    cos, sin = random.unit_circle(stream)
-    v[i], v[j] = v[i] * cos + v[j] * sin, v[j] * cos - v[i] * sin
+def ensemble(law, n, stream):
+    return [law.start(stream) for _ in range(n)]
 
 
-def nanbu(n, steps, probability, stream, *, synchronous):
+def collide(law, v, i, j, stream):
+    v[i], v[j] = law.collided(v[i], v[j], stream)
+
+
+def nanbu(n, steps, probability, stream, law=Line, *, synchronous):
     while True:
-        v, own, simulated = ensemble(n, stream), 0, 0
+        v, own, simulated = ensemble(law, n, stream), 0, 0
         trials = Trials(probability, stream)
         for _ in range(steps):
             read = list(v) if synchronous else v
             for i in range(n):
                 if trials.next():
                     j = other_than(i, n, stream)
-                    cos, sin = random.unit_circle(stream)
-                    v[i] = read[i] * cos + read[j] * sin
+                    v[i] = law.collided(read[i], read[j], stream)[0]
                     own, simulated = own + (i == 0), simulated + 1
                     trials.renew()
         yield v[0], own, simulated
 
 
-def nanbu_babovsky(n, steps, mean_pairs, stream):
+def nanbu_babovsky(n, steps, mean_pairs, stream, law=Line):
     order = list(range(n))
     while True:
-        v, own, simulated = ensemble(n, stream), 0, 0
+        v, own, simulated = ensemble(law, n, stream), 0, 0
         for _ in range(steps):
             whole = int(mean_pairs)
             pairs = whole + (random.uniform(stream) < mean_pairs - whole)
@@ -48,25 +60,25 @@ def nanbu_babovsky(n, steps, mean_pairs, stream):
                 chosen = k + random.index_below(n - k, stream)
                 order[k], order[chosen] = order[chosen], order[k]
             for i, j in zip(order[: 2 * pairs : 2], order[1 : 2 * pairs : 2], strict=True):
-                rotate(v, i, j, stream)
+                collide(law, v, i, j, stream)
                 own += 0 in (i, j)
             simulated += pairs
         yield v[0], own, simulated
 
 
-def bird(n, n_collisions, stream):
+def bird(n, n_collisions, stream, law=Line):
     while True:
-        v, own = ensemble(n, stream), 0
+        v, own = ensemble(law, n, stream), 0
         for _ in range(n_collisions):
             i, j = random.pair_below(n, stream)
-            rotate(v, i, j, stream)
+            collide(law, v, i, j, stream)
             own += 0 in (i, j)
         yield v[0], own, n_collisions
 
 
-def poisson(n, mean_own, pair_rate, stream):
+def poisson(n, mean_own, pair_rate, stream, law=Line):
     while True:
-        v, times, simulated = ensemble(n, stream), [random.exponential(stream)], 0
+        v, times, simulated = ensemble(law, n, stream), [random.exponential(stream)], 0
         while times[-1] < mean_own:
             times.append(times[-1] + random.exponential(stream))
         own, span = len(times) - 1, mean_own
@@ -76,8 +88,8 @@ def poisson(n, mean_own, pair_rate, stream):
             budget = pair_rate * math.comb(n - 1, 2) * gap - random.exponential(stream)
             while budget > 0:
                 i, j = random.pair_below(n - 1, stream)
-                rotate(v, i + 1, j + 1, stream)
+                collide(law, v, i + 1, j + 1, stream)
                 simulated += 1
                 budget -= random.exponential(stream)
-            rotate(v, 0, 1 + random.index_below(n - 1, stream), stream)
+            collide(law, v, 0, 1 + random.index_below(n - 1, stream), stream)
         yield v[0], own, simulated + own

@@ -98,7 +98,7 @@ def test_the_trace_sees_what_a_hole_would_hide(monkeypatch):
     first, second = (one["sample"] for one in traced.run([["sample", kac], ["sample", literal]]))
     assert first["required"] >= {
         ("kacsim.kac.nanbu_sequential", "ancestral"),  # looked up by name
-        ("kacsim.kac.sampling", "_velocity_sums"),  # called
+        ("kacsim.kac.replicates", "value_sums"),  # called
         ("kacsim.kac.tape", "ancestral_draws"),  # runs at the import
         ("kacsim.statistics.histogram", "FINE_WIDTH"),  # a constant of another module
         ("kacsim.variate_tables", "strips"),  # called to make a constant

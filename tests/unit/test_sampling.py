@@ -10,12 +10,12 @@ import pytest
 
 from kacsim.cases import make_case
 from kacsim.jobs import sampling
-from kacsim.kac import draws, perfect, perfect_blocks
+from kacsim.kac import draws, perfect, perfect_blocks, replicates
 from kacsim.kac import sampling as kac_sampling
 from kacsim.statistics import histogram
 from kacsim.streams import new_stream
 
-SIZE = {"n_draws": kac_sampling.CHUNK + 700, "n_replicates": 3, "seed": 5}
+SIZE = {"n_draws": replicates.CHUNK + 700, "n_replicates": 3, "seed": 5}
 
 
 def kac_case(**others):
@@ -52,7 +52,7 @@ def test_sums_are_numpys():
 
 @pytest.mark.parametrize("threshold", [None, 1.35])
 def test_kept_velocities_are_the_first_above_the_threshold(threshold, monkeypatch):
-    monkeypatch.setattr(kac_sampling, "KEPT", 900)
+    monkeypatch.setattr(replicates, "KEPT", 900)
     case = kac_case(keep_above=threshold)
     velocities = redrawn(case)[0].ravel()
     above = velocities[velocities > (-math.inf if threshold is None else threshold)]
@@ -62,7 +62,7 @@ def test_kept_velocities_are_the_first_above_the_threshold(threshold, monkeypatc
 @pytest.mark.parametrize("value", [-math.inf, -1e300, -8.0001, 7.99999, 8.0, 1e300, math.inf])
 def test_extreme_values_are_counted_in_the_tails(value):
     counts, sums, kept = np.zeros(322, np.int64), np.zeros(4), np.empty(0)
-    kac_sampling.accumulate(np.array([value]), counts, sums, kept, 0, 0.0)
+    replicates.accumulate(np.array([value]), counts, sums, kept, 0, 0.0)
     place = 0 if value < -8.0 else 321 if value >= 8.0 else 320
     assert (counts.sum(), counts[place]) == (1, 1)
 
@@ -70,7 +70,7 @@ def test_extreme_values_are_counted_in_the_tails(value):
 def test_progress_counts_draws():
     told = []
     sampling.run(kac_case(), told.append)
-    assert told[0] == kac_sampling.CHUNK
+    assert told[0] == replicates.CHUNK
     assert told[-1] == SIZE["n_draws"] * SIZE["n_replicates"]
     assert told == sorted(told)
 
@@ -86,7 +86,7 @@ def test_coupling_times_are_those_of_the_kernel():
     velocities, times = np.empty(SIZE["n_draws"]), np.empty((3, SIZE["n_draws"]), np.int64)
     for k in range(3):
         stream = new_stream(case.seed, case.id, k)
-        for part in (slice(0, kac_sampling.CHUNK), slice(kac_sampling.CHUNK, None)):
+        for part in (slice(0, replicates.CHUNK), slice(replicates.CHUNK, None)):
             perfect.couple(velocities[part], times[k, part], 3, 4.5, 0.01, stream)
     np.testing.assert_array_equal(found["coupling_time"], times.ravel())
     np.testing.assert_allclose(found["coupling_mean"], times.mean(axis=1))
@@ -103,7 +103,7 @@ def test_perfect_draws_are_counted_over_their_range_and_beside_later_ones(energy
     edges = math.sqrt(total) * np.linspace(-1.0, 1.0, 8193)
     for k in range(3):
         stream, blocks = new_stream(case.seed, case.id, k), 0
-        parts = [np.empty(kac_sampling.CHUNK), np.empty(700)]
+        parts = [np.empty(replicates.CHUNK), np.empty(700)]
         for part in parts:
             blocks += perfect_blocks.draw_beginnings(part, 3, total, 4, stream)
         counts = np.histogram(np.concatenate(parts), edges)[0]

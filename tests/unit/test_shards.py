@@ -11,8 +11,10 @@ from kacsim import cli, files, plan, store
 from kacsim.boltzmann import sampling as boltzmann_sampling
 from kacsim.cases import make_case, tiny_cases
 from kacsim.jobs import expected, sampling, shards
+from kacsim.kac import replicates
 from kacsim.kac import sampling as kac_sampling
 from kacsim.kernels.provenance import ROOT
+from kacsim.maxwell import sampling as maxwell_sampling
 from kacsim.samplers import registry
 from kacsim.techniques import sampling as techniques_sampling
 
@@ -55,7 +57,8 @@ def drawn(case, path=None):
 def folder(tmp_path, monkeypatch):
     """Run in a folder of its own, with limits that a few draws reach."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(kac_sampling, "KEPT", LIMIT)
+    for module in (replicates, kac_sampling, maxwell_sampling):
+        monkeypatch.setattr(module, "KEPT", LIMIT)
     monkeypatch.setattr(boltzmann_sampling, "TOP", LIMIT)
     monkeypatch.setattr(techniques_sampling, "KEPT", LIMIT)
 
@@ -208,7 +211,8 @@ def test_memory_of_merging_does_not_grow_with_the_shards(sampler, folder, monkey
     A shard holds some 100 kB of first values or largest ones, so that a hundred kept at once would
     take 10 MB.
     """
-    monkeypatch.setattr(kac_sampling, "KEPT", 12_000)
+    for module in (replicates, kac_sampling, maxwell_sampling):
+        monkeypatch.setattr(module, "KEPT", 12_000)
     monkeypatch.setattr(boltzmann_sampling, "TOP", 12_000)
     peak, size = {}, {}
     for number in (10, 100):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kacsim.kac import bird, nanbu_sequential, nanbu_synchronous, tape
+from kacsim.kac import bird, model, nanbu_sequential, nanbu_synchronous, tape
 from kacsim.streams import new_stream
 
 # (pair, share, step) of the collisions of two draws, the latest of each first. The first draw has
@@ -21,12 +21,12 @@ ENERGY = [0.3, 1.7, 2.9, 1e-8, 41.0, 5.0]
 
 @pytest.fixture
 def written():
-    """Return a tape with those collisions."""
-    found = tape.new_tape(64)
+    """Return a tape with those collisions, and the state before them."""
+    found, state = tape.new_tape(64), tape.new_state(model, 64)
     for k, (i, j, part, step) in enumerate(EVENTS):
-        found.first[k], found.second[k], found.part[k], found.mark[k] = i, j, part, step
-    found.energy[: len(ENERGY)] = ENERGY
-    return found
+        found.first[k], found.second[k], state.part[k], found.mark[k] = i, j, part, step
+    state.energy[: len(ENERGY)] = ENERGY
+    return found, state
 
 
 def test_both_of_a_pair_share_their_energy(written):
@@ -34,8 +34,8 @@ def test_both_of_a_pair_share_their_energy(written):
     for i, j, part, _ in reversed(EVENTS):
         total = x[i] + x[j]
         x[i], x[j] = part * total, (1.0 - part) * total
-    tape.share(written, len(EVENTS))
-    np.testing.assert_allclose(written.energy[: len(x)], x, rtol=1e-15)
+    tape.in_pairs(model)(*written, len(EVENTS))
+    np.testing.assert_allclose(written[1].energy[: len(x)], x, rtol=1e-15)
     np.testing.assert_allclose([sum(x[:4]), sum(x[4:])], [sum(ENERGY[:4]), sum(ENERGY[4:])])
 
 
@@ -43,8 +43,8 @@ def test_the_first_of_a_pair_changes_in_place(written):
     x = list(ENERGY)
     for i, j, part, _ in reversed(EVENTS):
         x[i] = (x[i] + x[j]) * part
-    nanbu_sequential.replay_in_place(written, len(EVENTS))
-    np.testing.assert_array_equal(written.energy[: len(x)], x)
+    nanbu_sequential.in_place(model)(*written, len(EVENTS))
+    np.testing.assert_array_equal(written[1].energy[: len(x)], x)
 
 
 def test_a_step_is_replayed_at_its_old_level(written):
@@ -53,21 +53,21 @@ def test_a_step_is_replayed_at_its_old_level(written):
     one = old | {0: 0.9 * (old[0] + old[2]), 2: 0.2 * (old[2] + old[3])}
     one |= {4: 0.7 * (old[4] + old[5]), 5: 0.1 * (old[5] + old[4])}
     two = one | {0: 0.3 * (one[0] + one[1]), 1: 0.6 * (one[1] + one[2])}
-    nanbu_synchronous.replay_steps(written, len(EVENTS))
-    np.testing.assert_array_equal(written.energy[: len(two)], list(two.values()))
+    nanbu_synchronous.at_old_level(model)(*written, len(EVENTS))
+    np.testing.assert_array_equal(written[1].energy[: len(two)], list(two.values()))
 
 
 def test_nothing_is_replayed_of_an_empty_tape(written):
-    for replay in (tape.share, nanbu_sequential.replay_in_place, nanbu_synchronous.replay_steps):
-        replay(written, 0)
-        np.testing.assert_array_equal(written.energy[: len(ENERGY)], ENERGY)
+    for of in (tape.in_pairs, nanbu_sequential.in_place, nanbu_synchronous.at_old_level):
+        of(model)(*written, 0)
+        np.testing.assert_array_equal(written[1].energy[: len(ENERGY)], ENERGY)
 
 
 def test_a_tape_has_room_for_the_first_particles_too():
     """As many slots as collisions, and one more of each draw."""
-    found = tape.new_tape(100)
-    assert found.energy.size == 100 + tape.MOST_DRAWS
-    assert len({array.ctypes.data for array in found}) == len(found)
+    found, state = tape.new_tape(100), tape.new_state(model, 100)
+    assert state.energy.size == 100 + tape.MOST_DRAWS
+    assert len({array.ctypes.data for array in (*found, *state)}) == len(found) + len(state)
 
 
 def test_draws_of_two_calls_follow_one_another(seed):

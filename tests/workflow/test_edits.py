@@ -101,7 +101,7 @@ SAMPLES = [
      ["kac-bird", "bkw", "trap", "identity", "injection"], ["sphere-lattice"]),
     ("kacsim/variate_tables.py", "E_TAIL = 7.69711747013104972", "E_TAIL = 7.69", ["kac-bird", "trap"],
      ["sphere-lattice", "area", "inverse-transform"]),
-    ("kacsim/kac/sampling.py", "sums[3] += square**4", "sums[3] += square**5",
+    ("kacsim/kac/replicates.py", "sums[3] += square**4", "sums[3] += square**5",
      ["kac-bird", "kac-equilibrium"], ["kac-corners", "kac-probe", "bkw"]),
 ]  # fmt: skip
 

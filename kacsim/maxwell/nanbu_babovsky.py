@@ -1,0 +1,10 @@
+"""Nanbu and Babovsky's algorithm for Maxwell molecules: that of `kacsim.kac.nanbu_babovsky`."""
+
+from kacsim.kac.nanbu_babovsky import arguments, forward_draws, history, prepare
+from kacsim.kac.tape import ancestral_draws
+from kacsim.maxwell import model
+
+__all__ = ["ancestral", "arguments", "forward"]
+
+forward = forward_draws(model)
+ancestral = ancestral_draws(model, prepare, history)

@@ -54,10 +54,11 @@ def leaves(time):
     return 2.0 + 3.0 * time
 
 
-def made(name, departures=DEPARTURES, factors=FACTORS, largest=1.5, **changes):
+def made(name, departures=DEPARTURES, factors=FACTORS, spreads=(1.0,) * 4, **changes):
     """Return a study's dataset: the replicates' means depart by so many own standard errors.
 
-    Realizations have a standard deviation of `factors` over the exact value, divisor n - 1.
+    Realizations have a standard deviation of `factors` over the exact value, divisor n - 1, times
+    `spreads` of their replicate.
     """
     kinds = (f"{one}_ancestral-{how}" for one in SAMPLERS[name].values() for how in FACTORS)
     nanoseconds = dict.fromkeys([*kinds, "bkw", "bkw_fraction"], COSTS)
@@ -72,12 +73,12 @@ def made(name, departures=DEPARTURES, factors=FACTORS, largest=1.5, **changes):
         axis = "threshold" if "threshold" in case.parameters else "speed"
         quantity = "tail" if axis == "threshold" else "density"
         firsts, times = case.parameters[axis], case.parameters["time"]
-        sigma = factors[case.parameters["method"]]
+        sigma = factors[case.parameters["method"]] * np.asarray(spreads)
         values = [[np.divide(*exact(name, quantity, c, t)) for t in times] for c in firsts]
         value = np.array(values)[..., None]
         mean = value * (1.0 + np.asarray(departures) * sigma / math.sqrt(case.n_draws))
         square = mean**2 + (value * sigma) ** 2 * (case.n_draws - 1) / case.n_draws
-        content = {"mean": mean, "mean_square": square, "largest": value * largest}
+        content = {"mean": mean, "mean_square": square, "largest": 1.5 * value}
         content["nodes"] = np.array([leaves(t) for t in times])[:, None]
         return fabricated.probes(case, {axis: firsts, "time": times}, **content)
 
@@ -115,6 +116,19 @@ def test_every_estimator_stands_at_its_place(name):
                     assert float(here.leaves) == leaves(time)
                     seconds = 1e-9 * (100.0 + 40.0 * leaves(time))
                     assert float(here.seconds) == pytest.approx(seconds)
+
+
+@STUDIES
+def test_the_worst_replicate(name):
+    """Deviations of 1, 3, 1 and 1 times a twentieth: together the root of 12/4 times it."""
+    found = made(name, departures=[0.0] * 4, spreads=[1.0, 3.0, 1.0, 1.0])
+    here = found.sel(estimator="ancestral", speed=4.0, time=2.0)
+    np.testing.assert_allclose(here.worst, 0.15, rtol=1e-6)
+    np.testing.assert_allclose(here.deviation, 0.05 * math.sqrt(3.0 * 96 / 99), rtol=1e-6)
+    # One of four left out: the others' root mean square is 1 or the root of 11/3.
+    left = 0.05 * np.sqrt(24 / 25 * np.array([1.0, 11 / 3, 11 / 3, 11 / 3]))
+    error = math.sqrt(0.75 * ((left - left.mean()) ** 2).sum())
+    np.testing.assert_allclose(here.deviation_error, error, rtol=1e-6)
 
 
 @STUDIES
@@ -166,6 +180,11 @@ def test_the_time_from_which_branching_takes_more_work():
     assert float(here.crossing_error.sel(estimator="free_leaf")) == pytest.approx(0.0, abs=1e-9)
     assert np.isnan(here.crossing.sel(estimator="ancestral"))
     assert (here.gain.sel(estimator="free_leaf").values < 1.0).tolist() == [True, False]
+    # Cheaper at two of three times: between the last two.
+    found = made("boltzmann_late", departures=[0.0] * 4, factors=factors, time=[0.25, *EARLY])
+    here = found.sel(quantity="density", speed=speed, estimator="free_leaf")
+    assert float(here.crossing) == pytest.approx(crossing, abs=1e-4)
+    assert (here.gain.values < 1.0).tolist() == [True, True, False]
     # Dearer at every time: no crossing in between.
     found = made("boltzmann_late", departures=[0.0] * 4, factors=FACTORS | {"geometric": 1e3})
     assert np.isnan(found.crossing.sel(estimator="geometric")).all()

@@ -11,6 +11,7 @@ from kacsim.items._lazy import bkw, np, plotting, second_moment, store
 
 FARTHEST = {"density": 7.0, "tail": 6.0}  # speeds to which the exact deviation is known
 NEAR = 0.99  # of the critical time: the last exact deviation
+HALVINGS = 20  # of the time between two where the work of two methods crosses
 
 
 def _exact(quantity, speed, time):
@@ -48,28 +49,80 @@ def reduce(samples, settings):
     early = [t for t in dataset.time.values if t < NEAR * bkw.critical_time()]
     shape = (len(_late.QUANTITIES), dataset.sizes["speed"], len(early))
     deviation, seconds = np.full(shape, np.nan), np.full(shape, np.nan)
-    for i, quantity in enumerate(_late.QUANTITIES):
-        each = settings["costs"]["nanoseconds"][BRANCHING[quantity]]
-        for j, speed in enumerate(settings["speed"]):
-            if speed > FARTHEST[quantity] or (quantity == "tail" and speed == 0.0):
-                continue
-            for k, time in enumerate(early):
-                function = second_moment.relative_deviation
-                if quantity == "tail":
-                    function = second_moment.fraction_deviation
-                deviation[i, j, k] = float(function(speed, time))
-                nodes = float(bkw.mean_recursion(time))
-                seconds[i, j, k] = 1e-9 * (each.get("draw", 0.0) + each["node"] * nodes)
-    here = dataset.sel(estimator="ancestral", time=early)
-    work = here.seconds.values * here.deviation.values**2
+    for i, j, k in np.ndindex(shape):
+        quantity, speed = _late.QUANTITIES[i], settings["speed"][j]
+        if speed <= FARTHEST[quantity] and (quantity == "density" or speed > 0.0):
+            deviation[i, j, k], seconds[i, j, k] = branching(settings, quantity, speed, early[k])
     dims, described = ("quantity", "speed", "early"), store.described
-    return dataset.assign(
+    dataset = dataset.assign(
         branching=described(deviation, dims, "exact relative deviation of Algorithms 2 and 3"),
-        gain=described(
-            seconds * deviation**2 / work, dims, "seconds times variance, branching over ancestral"
-        ),
         critical_time=described(bkw.critical_time(), (), "time of infinite variance of branching"),
     ).assign_coords(early=early)
+    work = dataset.seconds * dataset.deviation**2
+    gain = (seconds * deviation**2)[:, None] / work.sel(time=early).values
+    dims = ("quantity", "estimator", "speed", "early")
+    text = "seconds times variance, branching over the estimator"
+    return dataset.assign(gain=described(gain, dims, text)).assign(
+        _crossings(dataset, gain, settings)
+    )
+
+
+def branching(settings, quantity, speed, time):
+    """Return (exact relative deviation, seconds) of one realization of Algorithm 2 or 3."""
+    each = settings["costs"]["nanoseconds"][BRANCHING[quantity]]
+    function = second_moment.relative_deviation
+    if quantity == "tail":
+        function = second_moment.fraction_deviation
+    nodes = float(bkw.mean_recursion(time))
+    return float(function(speed, time)), 1e-9 * (each.get("draw", 0.0) + each["node"] * nodes)
+
+
+def _crossings(dataset, gain, settings):
+    """Return the times from which branching takes more work, with errors; nan where it always does.
+
+    The logarithm of the trees' work is interpolated between two times, that of branching is exact.
+    """
+    found = np.full((2, *gain.shape[:3]), np.nan)
+    work = np.log((dataset.seconds * dataset.deviation**2).values)
+    errors = (2.0 * dataset.deviation_error / dataset.deviation).values
+    early = dataset.early.values
+    for place in np.ndindex(gain.shape[:3]):
+        behind = np.flatnonzero(gain[place] <= 1.0)
+        if behind.size and behind[-1] + 1 < early.size:
+            here = slice(behind[-1], behind[-1] + 2)
+            probe = _late.QUANTITIES[place[0]], settings["speed"][place[2]]
+            known = early[here], work[place][here], errors[place][here]
+            found[(slice(None), *place)] = _crossing(settings, probe, *known)
+    dims, described = ("quantity", "estimator", "speed"), store.described
+    return {
+        "crossing": described(found[0], dims, "time from which branching takes more work"),
+        "crossing_error": described(found[1], dims, "its standard error"),
+    }
+
+
+def _crossing(settings, probe, span, work, errors):
+    """Return (time between two at which branching takes as much work, its standard error).
+
+    Parameters
+    ----------
+    probe : (quantity, speed)
+    span, work, errors : float64[2], the two times, the logarithm of the trees' work there, its
+        standard errors
+    """
+
+    def gain(time):
+        """Return the logarithm of the gain."""
+        deviation, seconds = branching(settings, *probe, time)
+        return np.log(seconds * deviation**2) - np.interp(time, span, work)
+
+    low, high = span
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if gain(middle) > 0.0 else (middle, high)
+    step = 1e-3 * (span[1] - span[0])
+    slope = (gain(low) - gain(low - step)) / step
+    share = (low - span[0]) / (span[1] - span[0])
+    return low, np.hypot((1.0 - share) * errors[0], share * errors[1]) / abs(slope)
 
 
 def claims(dataset):
@@ -102,7 +155,7 @@ def draw(dataset):
     axes[2].legend(fontsize=7, loc="lower right")
     for axis, quantity, what in ((axes[3], "tail", "fraction"), (axes[4], "density", "density")):
         for k, speed in enumerate(settings["speed"]):
-            gain = dataset.gain.sel(quantity=quantity, speed=speed)
+            gain = dataset.gain.sel(quantity=quantity, speed=speed, estimator="ancestral")
             if np.isfinite(gain).any():
                 plotting.points(axis, dataset.early.values, gain, None, k, f"$c$ = {speed:g} $c_q$")
         axis.axhline(1.0, color="0.4", lw=1)

@@ -29,6 +29,7 @@ def run(repeats):
     _initial(repeats)
     _bkw_tree(repeats)
     _trap_tree(repeats)
+    _mckean(repeats)
     _memory()
 
 
@@ -181,6 +182,29 @@ def _trap_tree(repeats):
         f"trap tree, {nodes:.1f} nodes: {fast * 1e9:.1f} ns per node (goal 120), plain recursion "
         f"{slow * 1e9:.1f}: ratio {slow / fast:.1f}"
     )
+
+
+def _mckean(repeats):
+    """McKean's trees per leaf, and those whose subtrees are cut per draw."""
+    from kacsim.mckean import constants, contour, probing
+
+    stream = new_stream(1, "benchmark")
+    for name, law in (("BKW", constants.BKW), ("Kac", constants.KAC)):
+        for time, n_draws in ((SPAN, 20_000), (5.0, 1_000), (10.0, 20)):
+            draw = _tree_of(probing, contour.TAIL, time, law, 0.0)
+            leaf, leaves = _nodes(lambda v, n, draw=draw: draw(v, n, stream), n_draws, repeats)
+            print(
+                f"McKean's tree, {name}, t = {time:g}, {leaves:.0f} leaves: {leaf * 1e9:.1f} ns "
+                "per leaf (goal 60)"
+            )
+    draw = _tree_of(probing, contour.BEYOND, 20.0, constants.BKW, constants.CUT)
+    end, ends = _nodes(lambda v, n: draw(v, n, stream), 20_000, repeats)
+    print(f"McKean's tree, cut, t = 20: {end * ends * 1e6:.1f} us per draw (goal 15)")
+
+
+def _tree_of(probing, quantity, time, law, cut):
+    tree = {"method": "ancestral", "cut": cut, "max_nodes": 10**7}
+    return probing.bound(quantity, 6.0, time, law, **tree)
 
 
 def _memory():

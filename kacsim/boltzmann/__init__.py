@@ -10,6 +10,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "estimators": ["BudgetError", "Estimate"],
         "initial_laws": ["Mixture", "Transform"],
         "relaxation_estimators": ["estimate_relaxation", "estimate_relaxation_fraction"],
+        "second_moment": ["relative_deviation"],
         "trap_estimators": ["estimate_trap", "estimate_trap_fraction"],
     },
 )

@@ -4,7 +4,7 @@ import dataclasses
 import functools
 
 from kacsim.boltzmann.constants import BREATHING, COUPLING, LARGEST_PHASE, MAX_NODES
-from kacsim.boltzmann.work import of_bkw, of_extinction, of_one_tree, of_trap
+from kacsim.boltzmann.work import of_bkw, of_extinction, of_null_collisions, of_one_tree, of_trap
 from kacsim.checks import (
     Problem,
     at_least,
@@ -207,6 +207,17 @@ SAMPLERS = (
             BUDGET,
         ),
         {"time": [1.0], "oversampling": [1.0]},
+    ),
+    probing(
+        "uniform_moment",
+        "estimates of f/M by Algorithm 6 in a uniform gas, at velocities drawn from M",
+        "uniform_tree",
+        (
+            grid("majorant", "nu", "raised collision frequencies over kappa eta", positive),
+            TIMES,
+            BUDGET,
+        ),
+        {"majorant": [1.5], "time": [0.5]}, of_null_collisions,
     ),
     probing_ancestors("bkw_ancestral", "estimates of f(c; t) by McKean's trees", SPEEDS),
     probing_ancestors(

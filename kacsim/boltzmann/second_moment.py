@@ -8,11 +8,13 @@ d a_n / d tau = -a_n + sum over k of a_k a_(n-k) / (n + 1).
 g diverges with G at every speed. Velocities are in c_q, times in mean collision times.
 """
 
+import functools
 import math
 
 import numpy as np
 from scipy import integrate, special
 
+from kacsim import checks
 from kacsim.boltzmann import bkw
 
 N_TERMS = 120
@@ -21,6 +23,7 @@ RATE = 4.0 / 7.0  # of the generating function of the start
 REACH = 3.0  # beyond a threshold, above which nothing of Algorithm 3's second moment is left
 
 
+@functools.lru_cache(maxsize=256)
 def coefficients(time):
     """Return a_n of g / G at a time before `bkw.critical_time`, float64[N_TERMS].
 
@@ -50,7 +53,26 @@ def variance(speed, time):
 
 
 def relative_deviation(speed, time):
-    """Return the standard deviation of one realization of Algorithm 2 over f(c; t)."""
+    """Return the standard deviation of one realization of Algorithm 2 over f(c; t), exactly.
+
+    Parameters
+    ----------
+    speed : float64[...], from 0 to `FARTHEST`, in c_q
+    time : float >= 0, before `kacsim.boltzmann.bkw.critical_time`, in mean collision times
+
+    Raises
+    ------
+    ValueError
+        If the variance is infinite, or the speed out of reach of the series.
+    """
+    speed = np.asarray(speed, dtype=float)
+    checks.raise_problems(checks.not_negative("time", time))
+    if time >= bkw.critical_time():
+        sentence = f"must be before {bkw.critical_time():.4g}, from where the variance is infinite"
+        raise ValueError(f"time = {time!r}: {sentence}")
+    if not ((speed >= 0.0) & (speed <= FARTHEST)).all():
+        sentence = f"must be from 0 to {FARTHEST:g}: the series has no digits left beyond"
+        raise ValueError(f"speed = {speed!r}: {sentence}")
     return np.sqrt(variance(speed, time)) / bkw.relative_density(speed, time)
 
 

@@ -19,22 +19,28 @@ from kacsim import checks
 
 DEGREES = (24, 40, 64, 96, 144)  # of the polynomials along a ray, tried in turn
 TOLERANCE = 1e-11  # of what they leave out, relative to the integrand at the saddle point
+GROUP = 12  # rays solved together
 SPAN = 2.0  # after which the slope along the ray is taken out anew
 PRECISION = {"rtol": 1e-11, "atol": 1e-12}
 SMALL = 1e-3  # square of the end of a ray below which its slope is left alone
 LENGTH = 11.0  # period of the inverted law, in standard deviations of the tilted one
+LEAST = 4.0  # logarithm of M up to which a contour near the middle of the law is tilted
+RESOLVED = 1e-8  # relative error above which a value is refused
 NEGLIGIBLE = 1e-16  # of the integrand at its largest
 MOST_NODES = 4000
 
 
 def uniform_share(n):
-    """Return nodes and weights on [0, 1/2] of E[s(U, 1 - U)], U uniform and s symmetric."""
-    nodes, weights = np.polynomial.legendre.leggauss(n)
-    return 0.25 * (nodes + 1.0), 0.5 * weights
+    """Return n nodes and weights on [0, 1/2] of E[s(U, 1 - U)], U uniform and s symmetric.
+
+    Exact for polynomials of a degree below 4 n, as the other one.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(2 * n)
+    return 0.5 * (nodes[:n] + 1.0), weights[:n]
 
 
 def squared_cosine_share(n):
-    """Return nodes and weights on [0, 1/2] of E[s(U, 1 - U)], U = cos(theta)**2, theta uniform."""
+    """Return nodes and weights on [0, 1/2] of E[s(U, 1 - U)], U = cos(theta)**2."""
     return np.sin(math.pi * (2.0 * np.arange(n) + 1.0) / (8.0 * n)) ** 2, np.full(n, 1.0 / n)
 
 
@@ -50,8 +56,7 @@ def collocation(share, degree):
     """
     angles = math.pi * np.arange(degree + 1) / degree
     points = np.sin(0.5 * angles) ** 2
-    # The integrand is a polynomial of twice the degree in U, of the degree in U (1 - U).
-    nodes, weights = share(degree // 2 + 8 if share is squared_cosine_share else degree)
+    nodes, weights = share(degree // 2 + 1)
     wanted = np.concatenate([nodes, 1.0 - nodes])[:, None] * points
     return points, interpolation(points, wanted.ravel()).reshape(*wanted.shape, -1), weights
 
@@ -116,6 +121,15 @@ def grow(law, z, time, share, degree):
     return slope, rest
 
 
+def grow_in_groups(law, z, time, share, degree):
+    """As `grow`, a few rays at a time: what they need stays near the processor."""
+    groups = [
+        grow(law, z[first : first + GROUP], time, share, degree)
+        for first in range(0, z.size, GROUP)
+    ]
+    return tuple(np.concatenate(part, axis=-1) for part in zip(*groups, strict=True))
+
+
 def left_out(rest):
     """Return the size of the last coefficients of the polynomials along the rays, float64[k]."""
     n = rest.shape[0]
@@ -125,14 +139,11 @@ def left_out(rest):
     return np.abs(last @ rest).max(axis=0)
 
 
-def saddle(law, x, time, share):
-    """Return (eta, deviation): where M(eta, t) exp(-eta x) is least, and of the law tilted there.
+def search(law, x, time, share, farthest):
+    """Return (eta float64[801], log M(eta, t) there, place of the saddle point).
 
-    One ray gives M at all smaller eta.
+    One ray gives M at all smaller eta; rays get longer until the saddle point is on one.
     """
-    width = 1e-3
-    variance = 2.0 * (float(np.real(law.mgf(np.array([width + 0j]))[0])) - 1.0) / width**2
-    farthest = 2.0 * x / variance + 2.0 / math.sqrt(variance)
     fine = np.linspace(0.0, 1.0, 801)
     while True:
         slope, rest = grow(law, np.array([farthest + 0j]), time, share, DEGREES[2])
@@ -141,12 +152,40 @@ def saddle(law, x, time, share):
         logs = fine**2 * slope[0].real + np.log(np.maximum(values, 1e-300))
         best = int(np.argmin(logs - fine * farthest * x))
         if best < 780:
-            break
+            return fine * farthest, logs, best
         farthest *= 1.4
-    around = np.clip(best, 1, fine.size - 2)
+
+
+def variance_of(law):
+    """Return the variance of one component at time 0, to six digits."""
+    width = 1e-3
+    return 2.0 * (float(np.real(law.mgf(np.array([width + 0j]))[0])) - 1.0) / width**2
+
+
+def saddle(law, x, time, share):
+    """Return (eta, deviation): where M(eta, t) exp(-eta x) is least, and of the law there."""
+    variance = variance_of(law)
+    farthest = 2.0 * x / variance + 2.0 / math.sqrt(variance)
+    eta, logs, best = search(law, x, time, share, farthest)
+    around = np.clip(best, 1, eta.size - 2)
     second = logs[around - 1] - 2.0 * logs[around] + logs[around + 1]
-    deviation = math.sqrt(max(second, 0.0)) / (fine[1] * farthest)
-    return fine[best] * farthest, max(deviation, 0.5 * math.sqrt(variance))
+    deviation = math.sqrt(max(second, 0.0)) / eta[1]
+    return eta[best], max(deviation, 0.5 * math.sqrt(variance))
+
+
+def tilt_for(law, x, time, share):
+    """Return (eta, deviation) of a contour where nothing cancels, near the middle of the law too.
+
+    eta is that of the saddle point, but at least where log M is LEAST; the deviation is the largest
+    of the law when it is tilted by eta or less.
+    """
+    variance = variance_of(law)
+    farthest = 0.3 * x / variance + 4.0 / math.sqrt(variance)
+    eta, logs, best = search(law, x, time, share, farthest)
+    last = max(best, int(np.argmax(logs > LEAST)))
+    widest = float(np.diff(logs[: max(last, 2) + 2], 2).max())
+    deviation = math.sqrt(max(widest, 0.0)) / eta[1]
+    return eta[last], max(deviation, 0.5 * math.sqrt(variance))
 
 
 def contour(law, eta, deviation):
@@ -170,34 +209,46 @@ def invert(law, x, time, share, factor, tilt=None):
     time : float >= 0, in mean collision times
     share : `uniform_share` or `squared_cosine_share`
     factor : 1 for the density at x of one component, 1 / z for its upper tail, and others
-    tilt : eta >= 0, by default max(saddle point, 2 over the standard deviation); 0 is the
+    tilt : eta >= 0, by default that of `tilt_for`; 0 is the
         Fourier inversion, whose error is 1e-15 of the density at its largest
 
     Returns
     -------
-    (value, error): the error is what the polynomials leave out, and what the trapezoid rule errs
-        by with steps twice as long, squared, relative to the integrand at its largest
+    (value, error): the error is relative to the value, or to the integrand if there is a tilt: what
+        the polynomials leave out, what the trapezoid rule errs by with steps twice as long,
+        squared, and rounding
+
+    Raises
+    ------
+    ValueError
+        If the error is above RESOLVED.
     """
-    eta, deviation = saddle(law, x, time, share)
-    eta = max(eta, 1.0 / deviation) if tilt is None else tilt
+    eta, deviation = tilt_for(law, x, time, share)
+    eta = eta if tilt is None else tilt
+    degrees = DEGREES
     while True:
         z = contour(law, eta, deviation)
-        for degree in DEGREES:
-            slope, rest = grow(law, z, time, share, degree)
+        for degree in degrees:
+            slope, rest = grow_in_groups(law, z, time, share, degree)
             sizes = np.exp(slope.real - slope[0].real)
             missed = float((sizes * left_out(rest)).max() / abs(rest[-1, 0]))
             if missed < TOLERANCE:
                 break
+        degrees = degrees[degrees.index(degree) :]
         terms = (np.exp(slope - slope[0].real - z.imag * x * 1j) * rest[-1] * factor(z)).real
         terms[0] *= 0.5
         step = z[1].imag - z[0].imag
         value, coarse = step * terms.sum(), 2.0 * step * terms[::2].sum()
-        scale = abs(value) if tilt is None else step * np.abs(terms).sum()
+        largest = step * np.abs(terms).sum()
+        scale = max(abs(value), 1e-8 * largest) if tilt is None else largest
         aliased = (abs(coarse - value) / scale) ** 2
         if aliased < TOLERANCE:
             break
         deviation *= 1.4
-    return value / math.pi * math.exp(slope[0].real - eta * x), aliased + missed
+    error = aliased + (missed + 1e-14) * largest / scale
+    if error > RESOLVED:
+        raise ValueError(f"law: its value at {x!r} is resolved to {error:.1e} only")
+    return value / math.pi * math.exp(slope[0].real - eta * x), error
 
 
 def check(law, time, **places):

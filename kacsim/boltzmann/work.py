@@ -55,6 +55,15 @@ def of_extinction(parameters):
     return of_trees(parameters, "majorant", lambda nu, time, _: nodes(nu * time))
 
 
+def of_null_collisions(parameters):
+    """Return the work of trees with four branches that grow at three times the raised frequency."""
+
+    def counted(ratio, time, _):
+        return (4.0 * math.exp(min(LARGEST, 3.0 * ratio * time)) - 1.0) / 3.0
+
+    return of_trees(parameters, "majorant", counted)
+
+
 def of_one_tree(parameters):
     """Return the work of one recorded tree."""
     return {"draw": 1.0, "node": nodes(parameters["time"])}

@@ -3,6 +3,7 @@
 import importlib
 import inspect
 import json
+import math
 
 from kacsim.mckean import choice
 from kacsim.mckean.constants import METHODS
@@ -93,8 +94,27 @@ def run(arguments):
     print(f"{text}: {found.mean:.6g} ± {found.standard_error:.2g}")
     by = f", method {found.method}" if "method" in given else ""
     print(f"{found.n_realizations} realizations, mean recursion {found.mean_recursion:.4g}{by}")
+    share, doubt = f"{100 * found.largest_share:.0f} %", ""
+    if found.method == choice.BRANCHING and _is_infinite(arguments.what, given):
+        doubt = "the exact variance is infinite there"
     if found.largest_share > LIMIT:
-        share = f"{100 * found.largest_share:.0f} %"
+        doubt = f"one realization makes {share} of the sum"
+    if doubt:
         other = "method" in given and found.method != METHODS[0]
         serves = f"; --method {METHODS[0]} serves" if other else ""
-        print(f"one realization makes {share} of the sum: the error cannot be believed{serves}")
+        print(f"{doubt}: the error cannot be believed{serves}")
+
+
+def _is_infinite(what, given):
+    """Tell whether the variance of a realization by branching is known to be infinite."""
+    if what == "kac":
+        from kacsim.kac.probe import critical_time
+
+        plain = given["oversampling"] == 1.0
+        return plain and given["time"] >= critical_time(given["collision_rate"])
+    if what in ("bkw", "bkw-fraction"):
+        from kacsim.boltzmann.bkw import second_moment_oversampled
+
+        tree = (given[name] for name in ("time", "oversampling", "onset"))
+        return math.isinf(second_moment_oversampled(*tree))
+    return False

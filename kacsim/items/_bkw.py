@@ -1,23 +1,28 @@
-"""The eight figures of the BKW mode: Algorithm 2 or 3, against time or along an axis.
+"""The figures of the BKW mode: Algorithm 2 or 3, or McKean's trees, against time or along an axis.
 
-The published figures and those with oversampling differ by their settings alone.
+The published figures, those with oversampling and those by McKean's trees, whose settings have no
+oversampling, differ by their settings alone.
 """
 
 import math
 
 from kacsim.items import _probes
-from kacsim.items._lazy import bkw, np, store
+from kacsim.items._lazy import bkw, np, second_moment, store
 
 AXIS = {"bkw": "speed", "bkw_fraction": "threshold"}
 SYMBOL = {"speed": "c", "threshold": "c_0"}
 N_FINE = 200
+N_EXACT = 60  # points of the exact deviation
+FARTHEST = {"bkw": 7.0, "bkw_fraction": 6.0}  # speeds to which it is known
 
 
 def cases_by_size(sampler, settings):
     """Return size -> case, the probes being a grid of the first axis by time."""
     axis = AXIS[sampler]
     grid = {axis: settings[axis], "time": settings["time"]}
-    common = {"oversampling": settings["oversampling"], "max_nodes": settings["max_nodes"]}
+    common = {key: settings[key] for key in ("oversampling", "max_nodes") if key in settings}
+    if "oversampling" not in settings:
+        sampler = f"{sampler}_ancestral"
     return {size: _probes.case(settings, sampler, size, **grid, **common) for size in _probes.SIZES}
 
 
@@ -47,7 +52,36 @@ def reduce(sampler, samples, settings):
     )
     curves["nominal"] = described(math.erf(math.sqrt(0.5)), (), "share of right bars that cover")
     places = {"fine_time": ("fine_time", fine_time), fine_axis: (fine_axis, fine_first)}
+    if settings.get("oversampling") == 1.0:
+        some_first = np.linspace(fine_first[0], fine_first[-1], N_EXACT)
+        some_time = np.linspace(fine_time[0], fine_time[-1], N_EXACT)
+        text = "exact relative deviation of one realization"
+        curves["deviation_time"] = described(
+            exact_deviation(sampler, settings[axis], some_time), (axis, "some_time"), text
+        )
+        curves[f"deviation_{axis}"] = described(
+            exact_deviation(sampler, some_first, settings["time"]), (f"some_{axis}", "time"), text
+        )
+        places |= {"some_time": ("some_time", some_time)}
+        places |= {f"some_{axis}": (f"some_{axis}", some_first)}
     return table.assign(curves).assign_coords(places)
+
+
+def exact_deviation(sampler, firsts, times):
+    """Return the exact relative deviation of one realization, float64[first, time].
+
+    nan where it is infinite, or where the series that gives it has no digits left.
+    """
+    found = np.full((len(firsts), len(times)), np.nan)
+    for j, time in enumerate(times):
+        near = [i for i, first in enumerate(firsts) if first <= FARTHEST[sampler]]
+        if time >= bkw.critical_time():
+            continue
+        if sampler == "bkw":
+            found[near, j] = second_moment.relative_deviation(np.asarray(firsts)[near], time)
+        else:
+            found[near, j] = [second_moment.fraction_deviation(firsts[i], time) for i in near]
+    return found
 
 
 def _exactly(sampler, settings):
@@ -66,14 +100,14 @@ def covering(sampler, samples, settings, size):
 
 
 def claims(dataset):
-    """Return nothing: the bars of these figures are counted together, in `boltzmann_numbers`."""
+    """Return nothing: the bars of these figures are counted elsewhere."""
     return []
 
 
 def draw(sampler, along, dataset):
     """Draw values and relative errors along one axis, a panel per value of the other."""
     axis = AXIS[sampler]
-    published = dataset.attrs["settings"]["oversampling"] == 1.0
+    published = dataset.attrs["settings"].get("oversampling") == 1.0
     critical = bkw.critical_time() if published else None
     quantity = "$f(c;t)\\,c_q^3$" if sampler == "bkw" else "fraction $|c| > c_0$"
     symbol = SYMBOL[axis]

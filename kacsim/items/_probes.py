@@ -219,6 +219,10 @@ def draw_rows(dataset, along, panel, titles, x_label, y_label, critical=None):
             amount = f"{int(one.n_draws):,}"
             style = {"ls": "", "ms": 4, "color": plotting.COLOURS[j]}
             low.plot(x, one.error / one.exact, "o", label=f"relative s.d., {amount}", **style)
+            if f"deviation_{along}" in dataset:
+                line = one[f"deviation_{along}"] / np.sqrt(float(one.n_draws))
+                label = "exact relative s.d." if j == 0 else None
+                low.plot(one[f"some_{along}"], line, color=style["color"], lw=0.8, label=label)
             wrong = np.abs(one.actual_error) / one.exact
             low.plot(x, wrong, "^", mfc="none", label=f"actual error, {amount}", **style)
         low.set_yscale("log")

@@ -10,7 +10,9 @@ USES = (
     "boltzmann_fig8",
     "boltzmann_fig9",
     "boltzmann_fig10",
+    "boltzmann_late",
     "boltzmann_oversampling",
+    "boltzmann_trap_variance",
     "boltzmann_variance",
 )
 

@@ -18,6 +18,7 @@ USES = (
     "kac_cost",
     "kac_forward",
     "kac_initial",
+    "kac_late",
     "kac_probe",
     "kac_statements",
     "kac_tails",

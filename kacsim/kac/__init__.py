@@ -9,6 +9,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "constants": ["RATE"],
         "draws": ["draw", "draw_equilibrium"],
         "exact": ["cumulative", "density", "survival"],
+        "high_moments": ["moment"],
         "moments": ["fourth_moment"],
         "probe": ["estimate_density", "estimate_tail"],
         "relaxation": ["estimate_relaxation", "estimate_relaxation_tail"],

@@ -113,5 +113,6 @@ ancestral = ancestral_draws(model, prepare, history)
 def fourth_moment(*, n_particles, time, collision_rate):
     """Return E v_1**4 after a fixed number of collisions of uniform pairs."""
     n, collisions = arguments(n_particles=n_particles, time=time, collision_rate=collision_rate)
-    ratio = 1.0 - (n + 2.0) / (2.0 * n * (n - 1.0))
-    return INITIAL_SQUARE + gain(n) * (1.0 - ratio**collisions)
+    lost = (n + 2.0) / (2.0 * n * (n - 1.0))
+    left = math.expm1(collisions * math.log1p(-lost)) if lost < 1.0 else -1.0
+    return INITIAL_SQUARE - gain(n) * left

@@ -87,3 +87,11 @@ def drawn_fourth_moment(n_particles):
     """Return E v_1**4 of `drawn_cumulative`: 3 E[E**2] / (N (N + 2)), E[E**2] = a (a + 1)."""
     alpha = MEAN_ENERGY * n_particles
     return 3.0 * alpha * (alpha + 1.0) / (n_particles * (n_particles + 2.0))
+
+
+def drawn_moment(order, n_particles):
+    """Return E v_1**order of `drawn_cumulative`, an even order: E[E**k] times a Beta moment."""
+    value, alpha = 1.0, MEAN_ENERGY * n_particles
+    for j in range(order // 2):
+        value *= (alpha + j) * (0.5 + j) / (0.5 * n_particles + j)
+    return value

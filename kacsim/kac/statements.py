@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 from scipy import special, stats
 
-from kacsim.kac import exact
+from kacsim.kac import exact, sequential_limit
 from kacsim.kac.constants import MEAN_ENERGY, RATE, n_steps
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 
@@ -201,24 +201,9 @@ def discretized_moment(time, time_step, collision_rate=RATE):
 
 
 def in_place_moments(time, time_step, collision_rate=RATE):
-    """Return E v**4 of (particle 1, all particles) as N grows, Nanbu's particles updated in place.
-
-    A particle at the fraction u of the order finds partners of lower u already updated. With p the
-    chance of a collision and q = 3 p / 8 its moment becomes (1 - 5 p / 8) a(u) + q (2 (3/2)**2 +
-    the mean over partners), so that new' = (1 - 5 p / 8) a' + q (new - a), here as series in u.
-    """
-    p = collision_rate * time_step
-    keep, q = 1.0 - 5.0 * p / 8.0, 3.0 * p / 8.0
-    places = np.arange(1.0, 41.0)
-    old = np.zeros(places.size)
-    old[0] = INITIAL_SQUARE
-    for _ in range(n_steps(time, time_step)):
-        new = np.zeros(places.size)
-        new[0] = keep * old[0] + q * (2.0 * MEAN_ENERGY**2 + (old / places).sum())
-        for k in range(places.size - 1):
-            new[k + 1] = keep * old[k + 1] + q * (new[k] - old[k]) / (k + 1.0)
-        old = new
-    return float(old[0]), float((old / places).sum())
+    """Return E v**4 of (particle 1, all particles) as N grows, updated in place."""
+    first, mean = sequential_limit.fourth_moments(0.0, time, time_step, collision_rate)
+    return float(first), mean
 
 
 def mean_rounded(x):

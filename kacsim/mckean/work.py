@@ -2,7 +2,7 @@
 
 import math
 
-from kacsim.mckean.constants import BETA, CUT, ELL, KAPPA, LEAST_ETA, VARIANCE
+from kacsim.mckean.constants import BETA, ELL, KAPPA, LEAST_ETA, VARIANCE
 
 OUTSIDE = "it tells how long a job takes, and no job what to draw"
 
@@ -41,24 +41,13 @@ def mean_ends(v, time, law, cut):
 
 
 def of_trees(parameters, axis, law):
-    """Return the work of realizations at every probe of a grid, by the method.
+    """Return the work of realizations at every probe of a grid.
 
     Parameters
     ----------
     axis : name of the grid's first axis
     """
     rate = parameters.get("collision_rate", 1.0)
-    method, cut = parameters["method"], parameters["cut"]
     probes = [(v, rate * time) for v in parameters[axis] for time in parameters["time"]]
-    ends = sum(mean_ends(v, time, law, cut) for v, time in probes)
-    return {"call": len(probes), f"{method} tree": len(probes), f"{method} end": ends}
-
-
-def serving(v, time, law, most):
-    """Return the cut of the trees that serve at v: 0 where a whole one is not too large.
-
-    Parameters
-    ----------
-    most : leaves of the largest tree that is allowed
-    """
-    return 0.0 if 10.0 * mean_leaves(v, time, law) <= most else CUT
+    ends = sum(mean_ends(v, time, law, parameters["cut"]) for v, time in probes)
+    return {"call": len(probes), "draw": len(probes), "end": ends}

@@ -28,6 +28,7 @@ GOOD = {
     "trap": (boltzmann.estimate_trap, {"position": 1.0, "velocity": 0.3, "time": 0.5, **GAS}),
     "trap_fraction": (boltzmann.estimate_trap_fraction, {"radius": 1.0, "time": 0.5, **GAS}),
     "kac": (kac.estimate_density, {"v": 1.0, "time": 0.5, "collision_rate": 0.9, **TREE}),
+    "kac_tail": (kac.estimate_tail, {"v": 1.0, "time": 0.5, "collision_rate": 0.9, "cut": 0.2}),
 }
 NOT_POSITIVE = [0.0, -1.7, math.nan, math.inf, "wide", True]
 NEGATIVE = [-0.5, math.nan, math.inf, "long", None]
@@ -56,6 +57,7 @@ WRONG = {
     "n_realizations": [1, 0, -3, 2.0, math.inf],
     "seed": [-1, 0.5, None],
     "max_nodes": [0, -1, 1.5],
+    "cut": [-0.1, math.nan, math.inf, "deep"],
 }
 OPTIONAL = {
     "trap": ("initial", "amount", "cross_section", "majorant_factor", "spread", "anisotropy"),
@@ -94,7 +96,9 @@ def test_refused_by_name(one, name, value):
 @pytest.mark.parametrize("one", GOOD)
 def test_a_budget_is_kept(one):
     function, good = GOOD[one]
-    late = {"extinction": 3.0, "bkw": 3.0, "bkw_fraction": 3.0, "kac": 3.0}.get(one, 40.0)
+    late = {"extinction": 3.0, "bkw": 3.0, "bkw_fraction": 3.0, "kac": 3.0, "kac_tail": 3.0}.get(
+        one, 40.0
+    )
     arguments = good | SIZE | {"time": late, "max_nodes": 3}
     if "breathing" in good:
         arguments |= {"cross_section": 50.0}

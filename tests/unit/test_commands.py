@@ -113,11 +113,16 @@ def test_plan_is_a_table_with_costs(capsys):
 
 
 ESTIMATES = [
-    ("kac --v 2.5 --time 0.7", kac.estimate_density, {"v": 2.5, "time": 0.7}),
+    (
+        "kac --v 2.5 --time 0.7",
+        kac.estimate_density,
+        {"v": 2.5, "time": 0.7, "method": "ancestral"},
+    ),
+    ("kac-tail --v 2.5 --time 0.7", kac.estimate_tail, {"v": 2.5, "time": 0.7}),
     (
         "bkw --velocity 1 0.5 -2 --time 0.7 --rms-velocity 1.7",
         boltzmann.estimate_bkw,
-        {"velocity": [1.0, 0.5, -2.0], "time": 0.7, "rms_velocity": 1.7},
+        {"velocity": [1.0, 0.5, -2.0], "time": 0.7, "rms_velocity": 1.7, "method": "best"},
     ),
     (
         "trap --position 2 --velocity 0.3 --time 1 --initial breathing",
@@ -146,7 +151,34 @@ def test_estimate_is_the_function(words, function, given, capsys):
 def test_all_estimators_are_commands():
     public = {name for module in (kac, boltzmann) for name in module.__all__}
     functions = {function for _, function, _ in estimating.ESTIMATORS.values()}
-    assert functions == {name for name in public if name.startswith("estimate_")}
+    typed = {name for name in public if name.startswith("estimate_")}
+    # An initial law is an object.
+    assert functions == {name for name in typed if not name.startswith("estimate_relaxation")}
+
+
+@pytest.mark.parametrize(
+    ("words", "last"),
+    [
+        ("bkw --velocity 4 --time 10 --n-realizations 50", "method ancestral"),
+        ("bkw --velocity 4 --time 1 --oversampling 1.5", "method branching"),
+        ("bkw-fraction --threshold 2 --time 40", "method ancestral"),
+        ("kac-tail --v 6 --time 2", "method ancestral"),
+        (
+            "bkw --velocity 1 --time 2.4 --method branching",
+            "the exact variance is infinite there: the error cannot be believed; "
+            "--method ancestral serves",
+        ),
+        (
+            "kac --v 0.5 --time 1.4 --method branching",
+            "the exact variance is infinite there: the error cannot be believed; "
+            "--method ancestral serves",
+        ),
+        ("bkw --velocity 1 --time 2.3 --method branching", "method branching"),
+    ],
+)
+def test_an_estimate_says_which_method_serves(words, last, capsys):
+    assert cli.main(["estimate", *words.split()]) == 0
+    assert capsys.readouterr().out.strip().endswith(last)
 
 
 @pytest.mark.parametrize(
@@ -158,7 +190,13 @@ def test_all_estimators_are_commands():
         ("bkw --velocity 1 --time 1 --n-realizations many", "--n-realizations = 'many': must"),
         ("trap --position 1 --velocity 0 --time 1 --initial warm", "--initial = 'warm': must"),
         ("extinction --time 1 --rate 1 --initial 1 --majorant 0", "--majorant = 0.0: must"),
-        ("bkw --velocity 1 --time 9 --max-nodes 10", "max_nodes: a tree has grown"),
+        ("bkw --velocity 1 --time 9 --max-nodes 10 --method branching", "max_nodes: a tree has"),
+        ("bkw --velocity 1 --time 9 --method tree", "--method = 'tree': must be one of"),
+        ("bkw --velocity 1 --time 20 --method ancestral", "--time = 20.0: a tree has 5e+08 leaves"),
+        ("bkw --velocity 0 --time 1 --method free_leaf", "--velocity = 0.0: needs method"),
+        ("bkw --velocity 1 --time 1 --cut 1 --method branching", "--cut = 1.0: needs method"),
+        ("kac-tail --v 300 --time 1", "--v = 300.0: must be at most 100"),
+        ("kac-tail --v 60 --time 1", "the probe lies where double precision"),
     ],
 )
 def test_wrong_estimate(words, message, capsys):

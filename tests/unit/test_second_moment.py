@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
+from kacsim import boltzmann
 from kacsim.boltzmann import bkw, second_moment
 
 # Relative deviations of one realization at c = 0, 1, 2, 4, 6, of an independent prototype.
@@ -107,3 +108,25 @@ def test_gain_of_an_equilibrium_is_its_loss():
     """At a late time f is the Maxwellian, and gain and loss are equal."""
     for speed in (0.3, 2.0, 4.0):
         assert bkw.gain(speed, 300.0) == pytest.approx(float(bkw.maxwellian(speed)), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("speed", "time", "sentence"),
+    [
+        (1.0, 2.4, "time = 2.4: must be before 2.358"),
+        (1.0, -0.1, "time = -0.1"),
+        (7.5, 1.0, "speed = .*: must be from 0 to 7"),
+        (-1.0, 1.0, "speed = .*: must be from 0 to 7"),
+    ],
+)
+def test_a_deviation_out_of_reach_is_refused(speed, time, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        boltzmann.relative_deviation(speed, time)
+
+
+def test_the_public_deviation_is_the_square_root_of_the_variance():
+    """Values of another program: those at t = 1 and 2.3."""
+    wanted = [1.4498, 0.5999, 0.4784, 1.3012, 5.102]
+    found = boltzmann.relative_deviation(np.array([0.0, 1.0, 2.0, 4.0, 6.0]), 1.0)
+    np.testing.assert_allclose(found, wanted, rtol=2e-4)
+    assert boltzmann.relative_deviation(2.0, 2.3) == pytest.approx(3.762, rel=2e-4)

@@ -19,6 +19,7 @@ USES = (
     "kac_forward",
     "kac_initial",
     "kac_late",
+    "kac_perfect",
     "kac_probe",
     "kac_statements",
     "kac_tails",

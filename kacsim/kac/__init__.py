@@ -7,7 +7,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "constants": ["RATE"],
-        "draws": ["draw", "draw_equilibrium"],
+        "draws": ["draw", "draw_equilibrium", "draw_perfect"],
         "exact": ["cumulative", "density", "survival"],
         "high_moments": ["moment"],
         "moments": ["fourth_moment"],

@@ -43,3 +43,5 @@ RULES = (
     "settled",
 )
 LIMIT_STEPS = 5000  # in single precision, which need not reach a tolerance
+LEVELS = 8192  # bins of v_1 over its whole range, in which perfect draws are counted
+LAGS = 4  # of perfect draws that are compared with later ones

@@ -4,7 +4,7 @@ import numpy as np
 
 from kacsim import checks
 from kacsim.cases import make_case
-from kacsim.kac import perfect
+from kacsim.kac import perfect, perfect_blocks
 from kacsim.kac.constants import RATE
 from kacsim.kernels.lookup import named
 from kacsim.streams import new_stream
@@ -115,3 +115,37 @@ def draw_equilibrium(*, n_particles, tolerance, n_draws, seed, energy=None):
     stream = new_stream(seed, "kac.draw_equilibrium")
     perfect.couple(velocities, times, *perfect.arguments(**case.parameters), stream)
     return velocities, times
+
+
+def draw_perfect(*, n_particles, n_draws, seed, energy=None):
+    """Draw v_1 at equilibrium, exactly: the perfect sampler with epsilon = 0 (docs/perfect.md).
+
+    Parameters
+    ----------
+    n_particles : int from 2 to 1000
+    n_draws : int >= 1
+    seed : int >= 0; the same arguments give the same bits
+    energy : float > 0, sum of v**2 of the ensemble, by default 3 N / 2
+
+    Returns
+    -------
+    float64[n_draws], independent, of the law v_1**2 / energy ~ Beta(1/2, (N - 1) / 2)
+
+    Raises
+    ------
+    ValueError
+        Names the argument, its value and what is allowed.
+    """
+    case = make_case(
+        "kac_perfect",
+        n_particles=n_particles,
+        energy=energy,
+        n_draws=n_draws,
+        n_replicates=1,
+        seed=seed,
+    )
+    checks.raise_problems(case.problems())
+    velocities = np.empty(n_draws)
+    stream = new_stream(seed, "kac.draw_perfect")
+    perfect_blocks.draw_beginnings(velocities, *perfect_blocks.arguments(**case.parameters), stream)
+    return velocities

@@ -8,17 +8,27 @@ from kacsim.boltzmann.samplers import BUDGET, TREE, grid
 from kacsim.boltzmann.work import of_kac
 from kacsim.checks import Problem, count, falling, finite, not_negative, one_of, positive
 from kacsim.kac import work
-from kacsim.kac.constants import MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
+from kacsim.kac.constants import LEVELS, MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
+from kacsim.kac.contraction import blocks_per_draw
 from kacsim.mckean import work as trees
 from kacsim.mckean.constants import KAC as KAC_LAW
 from kacsim.mckean.parameters import MCKEAN, far, mckean
-from kacsim.samplers import Parameter, Sampler, Variant, real, whole, whole_or_infinite
+from kacsim.samplers import (
+    REPLICATE_MEGABYTES,
+    Parameter,
+    Sampler,
+    Variant,
+    real,
+    whole,
+    whole_or_infinite,
+)
 
 OUTSIDE = "a case carries every value that its declaration sets"
 
 ENGINES = ("ancestral", "forward")
 RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides when corners meet
 LARGEST_CORNERS = 1000  # particles whose corners are compared step by step
+MOST_BLOCKS = 100  # blocks per perfect draw
 LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
 LARGEST_LABELLED, LARGEST_ENSEMBLE = 10**8, 10**15
 
@@ -147,6 +157,17 @@ def kac_equilibrium(*, n_particles, tolerance, energy=None):
         yield Problem("tolerance", tolerance, sentence)
 
 
+def kac_perfect(*, n_particles, energy=None, block=None):
+    """Yield the problems of a perfect draw: corners are followed, and a block may succeed."""
+    if n_particles > LARGEST_CORNERS:
+        yield Problem("n_particles", n_particles, f"must be at most {LARGEST_CORNERS}")
+    elif block is not None and block < n_particles - 2:
+        yield Problem("block", block, "no block succeeds with fewer than n_particles - 2 steps")
+    elif block is not None and blocks_per_draw(n_particles, block) > MOST_BLOCKS:
+        sentence = f"must be longer: fewer than one block in {MOST_BLOCKS} would succeed"
+        yield Problem("block", block, sentence)
+
+
 def kac_readings(*, n_particles, tolerance, **_):
     """Yield the problems of tolerances in units of the sphere's radius, and of many corners."""
     if n_particles > LARGEST_CORNERS:
@@ -217,6 +238,23 @@ EQUILIBRIUM = Sampler(
     work=work.of_coupling,
     tiny=({"n_particles": 3, "tolerance": 0.1},),
 )
+PERFECT = Sampler(
+    "kac_perfect",
+    "v_1 at equilibrium, perfect: epsilon = 0",
+    (
+        N_PARTICLES,
+        ENERGY,
+        Parameter(
+            "block", "block", "random steps before each sweep, chosen by N if not given",
+            functools.partial(count, least=0), None, kind=whole,
+        ),
+    ),
+    kernels="perfect_blocks",
+    check=kac_perfect,
+    work=work.of_blocks,
+    replicate_megabytes=lambda parameters: 8e-6 * LEVELS + REPLICATE_MEGABYTES,
+    tiny=({"n_particles": 3},),
+)  # fmt: skip
 CORNERS = Sampler(
     "kac_corners",
     "the distances of the corners before they meet",
@@ -300,4 +338,4 @@ ANCESTORS = (
         grid("threshold", "v", "thresholds v, in the unit of the paper", far),
     ),
 )  # fmt: skip
-SAMPLERS = (KAC, EQUILIBRIUM, CORNERS, READINGS, FORWARD, PROBE, *ANCESTORS)
+SAMPLERS = (KAC, EQUILIBRIUM, PERFECT, CORNERS, READINGS, FORWARD, PROBE, *ANCESTORS)

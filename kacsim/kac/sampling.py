@@ -1,11 +1,16 @@
 """Samplers of the Kac paper."""
 
+import math
+
 import numpy as np
+from numba import int64
 
 from kacsim.boltzmann.sampling import sample as sample_kac_probe
-from kacsim.kac import draws, perfect
+from kacsim.kac import draws, perfect, perfect_blocks
+from kacsim.kac.constants import LAGS, LEVELS
 from kacsim.kac.coupling import sample_kac_forward, sample_kac_readings
 from kacsim.kac.replicates import KEPT, algorithm_sums, value_sums
+from kacsim.kernels.jit import kernel
 from kacsim.store import described
 from kacsim.streams import new_stream
 
@@ -15,6 +20,7 @@ __all__ = [
     "sample_kac_corners",
     "sample_kac_equilibrium",
     "sample_kac_forward",
+    "sample_kac_perfect",
     "sample_kac_probe",
     "sample_kac_readings",
 ]
@@ -72,6 +78,59 @@ def sample_kac_equilibrium(case, progress):
         ),
         "coupling_min": described(lowest, dims, "smallest coupling time", units),
         "coupling_max": described(highest, dims, "largest coupling time", units),
+    }
+
+
+@kernel
+def count_levels(velocities, energy, n_particles, levels, products):
+    """Add draws to counts over the range of v_1, and products of near ones to their sums.
+
+    Parameters
+    ----------
+    velocities : float64[n], draws, at most sqrt(energy) in size
+    levels : int64[LEVELS], counts in equal bins from -sqrt(energy) to it, modified in place
+    products : float64[LAGS], sums of the products of v**2 / energy - 1 / N with that of the first
+        to the last later draw, modified in place
+    """
+    radius, mean = math.sqrt(energy), 1.0 / n_particles
+    for k, v in enumerate(velocities):
+        place = int64((v / radius + 1.0) * (0.5 * LEVELS))
+        levels[min(max(place, 0), LEVELS - 1)] += 1
+        here = v * v / energy - mean
+        for lag in range(1, LAGS + 1):
+            if k + lag < velocities.size:
+                later = velocities[k + lag]
+                products[lag - 1] += here * (later * later / energy - mean)
+
+
+def sample_kac_perfect(case, progress):
+    """Draw v_1 at equilibrium with epsilon = 0 (docs/perfect.md).
+
+    Returns
+    -------
+    dict of counts, moment and kept_velocity as `sample_kac`, level_counts[replicate, level] and
+    lag_product[replicate, lag] of `count_levels` (a mean), blocks[replicate] (a mean per draw)
+    """
+    arguments = perfect_blocks.arguments(**case.parameters)
+    n, energy, _ = arguments
+    rows = len(case.replicates)
+    levels, products = np.zeros((rows, LEVELS), np.int64), np.zeros((rows, LAGS))
+    blocks, pairs = np.zeros(rows), np.zeros((rows, LAGS))
+
+    def fill(velocities, row, stream):
+        blocks[row] += perfect_blocks.draw_beginnings(velocities, *arguments, stream)
+        count_levels(velocities, energy, n, levels[row], products[row])
+        pairs[row] += np.maximum(0, velocities.size - np.arange(1, LAGS + 1))
+
+    variables = value_sums(case, fill, progress)
+    products /= np.maximum(1.0, pairs)
+    dims = ("replicate",)
+    return variables | {
+        "level_counts": described(levels, (*dims, "level"), "draws per bin of the range of v_1"),
+        "lag_product": described(
+            products, (*dims, "lag"), "mean product of v_1**2 / E - 1 / N with that of a later draw"
+        ),
+        "blocks": described(blocks / case.n_draws, dims, "blocks per draw"),
     }
 
 

@@ -3,7 +3,7 @@
 import math
 
 from kacsim.kac.constants import LIMIT_STEPS, SINGLE
-from kacsim.kac.contraction import predicted_steps
+from kacsim.kac.contraction import blocks_per_draw, chosen_block, predicted_steps
 
 LARGEST = 700.0  # exponent of the growth, whatever a configuration asks for
 
@@ -61,6 +61,15 @@ def of_coupling(parameters):
     n = parameters["n_particles"]
     steps = _steps(n, parameters["tolerance"], parameters["energy"])
     return {"draw": 1.0, "step": steps, "entry": n * steps, "square": n * n}
+
+
+def of_blocks(parameters):
+    """Return the work of one perfect draw: blocks of steps of N entries, bounds among them."""
+    n, block = parameters["n_particles"], parameters["block"]
+    block = chosen_block(n) if block is None else block
+    blocks = blocks_per_draw(n, block)
+    steps = blocks * (block + n)  # the bounds take as long as N steps
+    return {"draw": 1.0, "block": blocks, "step": steps, "entry": n * steps}
 
 
 def of_corners(parameters):

@@ -126,3 +126,62 @@ def couple_both_ways(n, energy, tolerance, stream):
             (back, onward),
             [gap(corners[0], other) for other in corners[1:]],
         )
+
+
+def blocks(n, block, stream):
+    """Yield (energy of particle 1 where a block begins, whether it succeeds, the largest difference
+    of two states after a sweep that does), block after block.
+
+    Of all states of sum 1 the corners and the one that is followed are carried along; after each of
+    the sweep's steps what the corners have in particles k and N is summed anew.
+    """
+    state = [1.0] + [0.0] * (n - 1)
+    while True:
+        begun = state[0]
+        points = [[float(i == k) for i in range(n)] for k in range(n)] + [state]
+        for p, q, share in _ahead(n, block, stream):
+            for x in points:
+                total = x[p] + x[q]
+                x[p], x[q] = share * total, (1 - share) * total
+        corners, state = points[:n], points[n]
+        succeeds, k = True, 0
+        while succeeds and k < n - 1:
+            low, high = (side(x[k] + x[-1] for x in corners) for side in (min, max))
+            y = high * random.squared_cosine(stream)
+            if y <= low or k == n - 2:
+                for x in points:
+                    x[k], x[-1] = y, x[k] + x[-1] - y
+                k += 1
+            else:
+                succeeds = False
+        if not succeeds:
+            total = state[k] + state[-1]
+            while True:
+                y = total * random.squared_cosine(stream)
+                # The densities of y for the sums `total` and `high`, without their common factor.
+                own, common = ((s - y) ** -0.5 if s > y else math.inf for s in (total, high))
+                if y > low or random.uniform(stream) * own >= common:
+                    break
+            state[k], state[-1] = y, total - y
+            for j in range(k + 1, n - 1):
+                total, share = state[j] + state[-1], random.squared_cosine(stream)
+                state[j], state[-1] = share * total, (1 - share) * total
+        yield begun, succeeds, max(max(x) - min(x) for x in zip(*points, strict=True))
+
+
+def _ahead(n, block, stream):
+    """Yield steps (p, q, share), which the kernel draws in lots of 1024."""
+    for start in range(0, block, 1024):
+        size = min(1024, block - start)
+        yield from [
+            (*random.pair_below(n, stream), random.squared_cosine(stream)) for _ in range(size)
+        ]
+
+
+def perfect(n, energy, block, stream):
+    """Yield (v_1, blocks until then): the first block that succeeds begins no draw."""
+    started = False
+    for number, (begun, succeeds, _) in enumerate(blocks(n, block, stream), 1):
+        if succeeds and started:
+            yield math.sqrt(energy * begun) * random.random_sign(stream), number
+        started = started or succeeds

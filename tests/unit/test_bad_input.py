@@ -211,6 +211,14 @@ COUPLED = [
     ({"n_draws": 0}, "n_draws", "integer of at least 1"),
     ({"seed": -1}, "seed", "integer of at least 0"),
 ]
+PERFECT = [
+    ({"n_particles": 1}, "n_particles", "integer of at least 2"),
+    ({"n_particles": 1001}, "n_particles", "at most 1000"),
+    ({"energy": -2.0}, "energy", "positive finite"),
+    ({"energy": math.nan}, "energy", "positive finite"),
+    ({"n_draws": 0}, "n_draws", "integer of at least 1"),
+    ({"seed": 1.5}, "seed", "integer of at least 0"),
+]
 # Command-line values reach the same checks; these are refused there only.
 SAMPLES = [
     ({"n_replicates": 0}, "n_replicates", "integer of at least 1"),
@@ -236,6 +244,15 @@ def test_wrong_draw(change, name, allowed):
 def test_wrong_draw_at_equilibrium(change, name, allowed):
     with pytest.raises(ValueError, match=r"\A[^\n]+\Z") as error:
         kac.draw_equilibrium(**(EQUILIBRIUM | change))
+    assert str(error.value).startswith(f"{name} = {change[name]!r}: ")
+    assert allowed in str(error.value)
+
+
+@pytest.mark.parametrize(("change", "name", "allowed"), PERFECT, ids=ids(PERFECT))
+def test_wrong_perfect_draw(change, name, allowed):
+    good = {"n_particles": 3, "n_draws": 1, "seed": 1}
+    with pytest.raises(ValueError, match=r"\A[^\n]+\Z") as error:
+        kac.draw_perfect(**(good | change))
     assert str(error.value).startswith(f"{name} = {change[name]!r}: ")
     assert allowed in str(error.value)
 

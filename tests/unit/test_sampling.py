@@ -10,7 +10,8 @@ import pytest
 
 from kacsim.cases import make_case
 from kacsim.jobs import sampling
-from kacsim.kac import draws, perfect, replicates
+from kacsim.kac import draws, perfect, perfect_blocks, replicates
+from kacsim.kac import sampling as kac_sampling
 from kacsim.statistics import histogram
 from kacsim.streams import new_stream
 
@@ -92,6 +93,37 @@ def test_coupling_times_are_those_of_the_kernel():
     np.testing.assert_allclose(found["coupling_variance"], times.var(axis=1))
     np.testing.assert_array_equal(found["coupling_min"], times.min(axis=1))
     np.testing.assert_array_equal(found["coupling_max"], times.max(axis=1))
+
+
+@pytest.mark.parametrize("energy", [None, 2.3])
+def test_perfect_draws_are_counted_over_their_range_and_beside_later_ones(energy):
+    """Each start of the kernel is a chain of its own: products are of draws of one start."""
+    case = make_case("kac_perfect", n_particles=3, energy=energy, block=4, **SIZE)
+    found, total = values_of(sampling.run(case)), 4.5 if energy is None else energy
+    edges = math.sqrt(total) * np.linspace(-1.0, 1.0, 8193)
+    for k in range(3):
+        stream, blocks = new_stream(case.seed, case.id, k), 0
+        parts = [np.empty(replicates.CHUNK), np.empty(700)]
+        for part in parts:
+            blocks += perfect_blocks.draw_beginnings(part, 3, total, 4, stream)
+        counts = np.histogram(np.concatenate(parts), edges)[0]
+        np.testing.assert_array_equal(found["level_counts"][k], counts)
+        assert found["blocks"][k] == blocks / SIZE["n_draws"]
+        for lag in range(1, 5):
+            x = [part**2 / total - 1.0 / 3.0 for part in parts]
+            products = np.concatenate([part[lag:] * part[:-lag] for part in x])
+            assert found["lag_product"][k, lag - 1] == pytest.approx(products.mean())
+        square = np.concatenate(parts) ** 2
+        assert found["moment"][k, 1] == pytest.approx((square**2).mean())
+
+
+@pytest.mark.parametrize("value", [-1.0, -0.99999, 0.0, 0.99999, 1.0])
+def test_levels_at_the_ends_of_the_range(value):
+    levels, products = np.zeros(8192, np.int64), np.zeros(4)
+    kac_sampling.count_levels(np.array([3.0 * value]), 9.0, 5, levels, products)
+    place = {-1.0: 0, -0.99999: 0, 0.0: 4096}.get(value, 8191)
+    assert (levels.sum(), levels[place]) == (1, 1)
+    assert (products == 0.0).all()
 
 
 def test_recorded_corners_are_coupled_runs():

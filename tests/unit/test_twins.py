@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from law.algorithms import own_parameters
 
-from kacsim.kac import draws, forward, perfect, readings, tape
+from kacsim.kac import draws, forward, perfect, perfect_blocks, readings, tape
 from kacsim.kac.constants import RULES, WALKS
 from kacsim.kac.samplers import ALGORITHMS, KAC
 from kacsim.kernels.lookup import named
@@ -202,6 +202,22 @@ def test_couple_gives_the_twins_draws(n, tolerance, n_seeds, seed):
         perfect.couple(velocity, time, n, energy, tolerance, new_stream(*key))
         wanted, wanted_time = coupling_twins.couple(n, energy, tolerance, new_stream(*key))
         assert (time[0], abs(velocity[0])) == (wanted_time, pytest.approx(wanted, rel=1e-12))
+
+
+@pytest.mark.parametrize(
+    ("n", "block", "n_draws"),
+    [(2, 0, 50), (2, 3, 20), (3, 1, 200), (3, 2, 200), (4, 5, 100), (7, 60, 40), (6, 1030, 3)],
+)
+def test_perfect_draws_are_the_twins(n, block, n_draws, seed):
+    """Short blocks, of which many fail at every step of the sweep, and such as fill a lot."""
+    energy, key = 1.3 * n, (seed, "twin perfect")
+    velocities, streams = np.empty(n_draws), (new_stream(*key), new_stream(*key))
+    blocks = perfect_blocks.draw_beginnings(velocities, n, energy, block, streams[0])
+    twin = coupling_twins.perfect(n, energy, block, streams[1])
+    wanted, numbers = zip(*itertools.islice(twin, n_draws), strict=True)
+    np.testing.assert_allclose(velocities, wanted, rtol=1e-9, atol=1e-9)
+    assert blocks == numbers[-1]
+    np.testing.assert_array_equal(*streams)
 
 
 @pytest.mark.parametrize("n", [2, 3, 6])

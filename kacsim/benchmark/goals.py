@@ -16,6 +16,9 @@ from kacsim.boltzmann.constants import BREATHING
 from kacsim.cases import make_case
 from kacsim.kac import bird, perfect, poisson
 from kacsim.kac.constants import MEAN_ENERGY, RATE
+from kacsim.maxwell import bird as maxwell_bird
+from kacsim.maxwell import poisson as maxwell_poisson
+from kacsim.maxwell.constants import RATE as MAXWELL_RATE
 from kacsim.streams import new_stream
 
 SPAN = 2.0  # from the start to what is drawn
@@ -25,6 +28,7 @@ def run(repeats):
     """Measure everything and print one line per figure."""
     _bird(repeats)
     _ancestral(repeats)
+    _maxwell(repeats)
     _perfect(repeats)
     _initial(repeats)
     _bkw_tree(repeats)
@@ -33,11 +37,11 @@ def run(repeats):
     _memory()
 
 
-def _draws(kernel_function, arguments):
+def _draws(kernel_function, arguments, *components):
     stream = new_stream(1, "benchmark")
 
     def call(n):
-        kernel_function(np.empty(n), np.empty(n, np.int64), *arguments, stream)
+        kernel_function(np.empty((n, *components)), np.empty(n, np.int64), *arguments, stream)
 
     return call
 
@@ -77,6 +81,22 @@ def _ancestral(repeats):
             f"{name} ancestral: {cost[50] * 1e6:.3f} us at N = 50, {cost[1000] * 1e6:.3f} at 1000, "
             f"{cost[10**9] * 1e6:.3f} at 10^9: ratio 10^9 to 50 {cost[10**9] / cost[50]:.2f} "
             f"(goal at most 1.3); forward Bird at 1000 to it {forward / cost[1000]:.0f} (goal 40)"
+        )
+
+
+def _maxwell(repeats):
+    """Ancestral draws of Maxwell molecules, and their flatness in N."""
+    for name, module in (("bird", maxwell_bird), ("poisson", maxwell_poisson)):
+        cost = []
+        for n_particles in (50, 1000, 10**9):
+            arguments = module.arguments(
+                n_particles=n_particles, time=SPAN, collision_rate=MAXWELL_RATE
+            )
+            cost.append(seconds_per_draw(_draws(module.ancestral, arguments, 3), 100_000, repeats))
+        told = ", ".join(f"{seconds * 1e6:.3f}" for seconds in cost)
+        print(
+            f"{name} ancestral of Maxwell molecules: {told} us at N = 50, 1000, 10^9 (goal 0.5): "
+            f"ratio 10^9 to 50 {cost[-1] / cost[0]:.2f} (goal at most 1.3)"
         )
 
 

@@ -93,7 +93,7 @@ def draw(dataset):
         axis.axhline(float(dataset.limit), color="black", ls="--", lw=1, label="BKW mode")
         axis.set_xscale("log")
         plotting.plain_log(axis.xaxis)
-        axis.legend()
+        plotting.legends_above([axis], 0.3, ncols=2)
     axes[0].set_title(f"step {settings['fixed_time_step']:g}")
     axes[0].set_xlabel("number of particles $N$")
     axes[0].set_ylabel("E $|v_1|^4$ at $t$ = " + f"{settings['time']:g}")

@@ -86,9 +86,14 @@ def reduce(samples, settings):
         variables[name] = described(mean, dims, f"collisions per draw, {name}")
         variables[f"{name}_error"] = described(error, dims, "standard error of the mean")
         variables[f"{name}_seconds"] = described(seconds, dims, "processor time of one draw", "s")
+    whole = 0.5 * RATE * time * np.array(few, dtype=float)
+    spared = -0.5 * math.expm1(-RATE * time) * (np.array(few) - 2.0)
     exact = [ancestors.expected_collisions(time, n, RATE) for n in many]
     variables |= {
-        "whole_ensemble": described([0.5 * n * time for n in few], ("forward_n",), "N t / 2"),
+        "whole_ensemble": described(whole, ("forward_n",), "N t / 2"),
+        "poisson_exact": described(
+            whole - spared, ("forward_n",), "exact mean of the Poisson algorithm"
+        ),
         "ancestral_exact": described(exact, ("n_particles",), "exact mean of the process"),
         "growth_exact": described([math.expm1(t) for t in times], ("growth_time",), "exp(t) - 1"),
     }
@@ -112,6 +117,7 @@ def draw(dataset):
             plotting.points(axes[2], line[x], line[f"{name}_seconds"], None, place, label)
     style = {"color": "0.3", "lw": 1}
     axes[0].plot(dataset.forward_n, dataset.whole_ensemble, label="$Nt/2$", **style)
+    axes[0].plot(dataset.forward_n, dataset.poisson_exact, ls="--", **style)
     axes[0].plot(finite.n_particles, finite.ancestral_exact, **style)
     error = dataset.growth_error
     plotting.points(

@@ -62,10 +62,10 @@ def draw(dataset):
         axis.set_yscale("log")
         plotting.plain_log(axis.xaxis)
         plotting.plain_log(axis.yaxis)
-    plotting.legends_above(axes, 0.4)
+    plotting.legends_above(axes, 0.3, ncols=2)
     axes[0].set_title(f"step {settings['fixed_time_step']:g}")
     axes[0].set_xlabel("number of particles $N$")
-    axes[0].set_ylabel("mean TVN of $|v_1|$ against the BKW mode")
+    axes[0].set_ylabel("mean TVN of $|v_1|$")
     axes[1].set_title(_maxwell.dashed(here.step_n.values))
     axes[1].set_xlabel("time step $\\Delta t$")
     return figure

@@ -4,6 +4,7 @@ All E (v_a.v_b)(v_c.v_d), N**4 of them, are updated in the order of the algorith
 many particles E |v|**4 depends on the place in that order only.
 """
 
+import functools
 import itertools
 
 import numpy as np
@@ -13,6 +14,7 @@ from kacsim.maxwell.contractions import EQUILIBRIUM, INITIAL
 TERMS = 40  # of a power series in the place
 
 
+@functools.cache
 def in_place(n_particles, probability, steps):
     """Return A of particle 1 after steps in which particles 1..N are updated in place."""
     n = n_particles

@@ -210,6 +210,8 @@ def test_counts_stand_at_their_engine_algorithm_and_n(cost):
 def test_predictions_of_counts(cost):
     """N t / 2, exp(t) - 1, and at N = 5 the mean of a chain of at most five ancestors."""
     assert cost.whole_ensemble.values == pytest.approx([3.0, 50.0])
+    never = 1.0 - math.exp(-TIME)
+    assert cost.poisson_exact.values == pytest.approx([3.0 - never / 2, 50.0 - 24.0 * never])
     assert cost.growth_exact.values == pytest.approx([math.expm1(1.0), math.expm1(3.0)])
     assert float(cost.ancestral_exact[-1]) == pytest.approx(math.expm1(TIME))
     s = np.arange(1.0, 6.0)

@@ -126,9 +126,9 @@ def test_moments_of_few_particles(algorithm, engine, n, seed):
     """Null: the exact E |v_1|**4 of this N, E |v_1|**2 = 3 and E v_x = 0.
 
     Statistic: z of the means, |v|**2 as control variate. 1e6 draws have a standard error of 0.05 %
-    of E |v|**4 and see a bias of 0.2 %. Mutants: the moment at half the time, and that of the
-    other one of Bird's and the exact process, which are 0.35 % apart at N = 7 (not looked at) and
-    more than 1 % at fewer particles.
+    of E |v|**4 and see a bias of 0.2 %. Mutants: the moment at half the time, and that of the other
+    one of Bird's and the exact process, which are 0.35 % apart at N = 7 (not looked at) and more
+    than 1 % at fewer particles.
     """
     velocities, _ = sample(algorithm, engine, n, 1_000_000, seed)
     square = squares(velocities)

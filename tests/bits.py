@@ -84,13 +84,15 @@ def digests():
 
 def run_others():
     """Run the kernels that no sampler runs."""
-    from kacsim import techniques
+    from kacsim import boltzmann, techniques
     from kacsim.kac import perfect
 
     techniques.integrate(lambda x: x, 0.0, 1.0, n_points=2, seed=1)
     one = lambda x: np.ones(x.shape)  # noqa: E731
     techniques.draw_by_rejection(one, one, lambda u: u, n_draws=1, seed=1)
     part = np.full(3, 0.3)
+    start = boltzmann.Mixture(((1.0, (1.0,)),))
+    boltzmann.estimate_relaxation(1.0, 1.0, initial=start, n_realizations=2, seed=1)
     perfect.couple_literally(2, 1.0, 0.5, np.zeros(3, np.int64), np.ones(3, np.int64), part)
 
 

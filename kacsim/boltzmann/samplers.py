@@ -15,7 +15,7 @@ from kacsim.checks import (
     positive,
 )
 from kacsim.mckean.constants import BKW
-from kacsim.mckean.parameters import MCKEAN, far, mckean
+from kacsim.mckean.parameters import MCKEAN, far, mckean, tiny_of
 from kacsim.mckean.work import of_trees
 from kacsim.samplers import Parameter, Sampler, real, whole
 
@@ -127,7 +127,7 @@ def probing(name, draws, kernels, parameters, tiny, work=None, check=None):
         name,
         draws,
         parameters,
-        (tiny,),
+        tiny if isinstance(tiny, tuple) else (tiny,),
         kernels=kernels,
         entries=lambda _: (name,),
         streaming="sample",
@@ -140,7 +140,7 @@ def probing_ancestors(name, draws, axis):
     """Return the declaration of a sampler by McKean's trees, up to `far` speeds."""
     own = dataclasses.replace(axis, check=far)
     return probing(
-        name, draws, "mckean_tree", (own, TIMES, *MCKEAN, BUDGET), {own.name: [1.0], "time": [1.0]},
+        name, draws, "mckean_tree", (own, TIMES, *MCKEAN, BUDGET), tiny_of(own.name),
         functools.partial(of_trees, axis=own.name, law=BKW),
         functools.partial(mckean, axis=own.name, law=BKW, at_speed=axis is SPEEDS),
     )  # fmt: skip

@@ -12,7 +12,7 @@ from kacsim.kac.constants import LEVELS, MEAN_ENERGY, RATE, SINGLE, WALKS, n_ste
 from kacsim.kac.contraction import blocks_per_draw
 from kacsim.mckean import work as trees
 from kacsim.mckean.constants import KAC as KAC_LAW
-from kacsim.mckean.parameters import MCKEAN, far, mckean
+from kacsim.mckean.parameters import MCKEAN, far, mckean, tiny_of
 from kacsim.samplers import (
     REPLICATE_MEGABYTES,
     Parameter,
@@ -319,7 +319,7 @@ def ancestors(name, draws, axis):
         name,
         draws,
         (axis, PROBE_TIMES, COLLISION_RATE, *MCKEAN, BUDGET),
-        ({axis.name: [1.0], "time": [1.0]},),
+        tiny_of(axis.name),
         kernels="mckean_tree",
         entries=lambda _: (name,),
         streaming="sample_kac_probe",

@@ -20,6 +20,11 @@ CUT = Parameter(
 MCKEAN = (METHOD, CUT)
 
 
+def tiny_of(axis):
+    """Return the smallest parameters, once for the kernel of every method."""
+    return tuple({axis: [1.0], "time": [1.0], "method": method} for method in METHODS)
+
+
 def far(name, value):
     """Yield a problem unless the value is a speed up to where double precision holds something."""
     yield from not_negative(name, value)

@@ -15,11 +15,14 @@ from kacsim.boltzmann import (
     literal_trap,
     null_collisions,
     trap_tree,
+    uniform_tree,
 )
 from kacsim.boltzmann import sampling as streaming
 from kacsim.cases import make_case
 from kacsim.jobs import sampling
 from kacsim.kac import probe_tree
+from kacsim.mckean import contour, free_leaf
+from kacsim.mckean.constants import BKW
 from kacsim.samplers import registry
 from kacsim.streams import new_stream
 
@@ -27,6 +30,7 @@ SIZE = {"n_draws": 150, "n_replicates": 3, "seed": 5}
 TIMES, BUDGET = [0.6, 1.1], 10**6
 MAJORANT = (5 / 3) ** 2.5 / math.e
 TREE = {"oversampling": 1.4, "onset": 0.3}
+LOG_M = -1.8378770664093454 * 1.5
 GAS = {"coupling": 2.7, "breathing": 0.3, "start_phase": 0.4}
 LAWS = {"majorant_factor": 1.3, "spread": 1.2, "anisotropy": 0.5}
 PHYSICS, CHOICES = (2.7, 0.3, 0.4, 1.0), (1.3 * MAJORANT, 1.2, 0.5)
@@ -59,6 +63,24 @@ SAMPLERS = {
         lambda c, t: (c, t, False),
     ),
     "extinction": ("majorant", {}, null_collisions.estimate, lambda nu, t: (t, nu, BUDGET)),
+    "uniform_moment": (
+        "majorant",
+        {},
+        uniform_tree.estimate_moment,
+        lambda nu, t: (nu, t, BUDGET),
+    ),
+    "bkw_ancestral": (
+        "speed",
+        {"cut": 0.1},
+        contour.estimate,
+        lambda c, t: (contour.SHELL, c, t, LOG_M - 0.5 * c * c, BKW, 0.1, BUDGET),
+    ),
+    "bkw_fraction_ancestral": (
+        "threshold",
+        {"method": "free_leaf"},
+        free_leaf.estimate,
+        lambda c, t: (contour.BEYOND, c, t, 0.0, BKW, BUDGET),
+    ),
     "kac_probe": (
         "speed",
         TREE | {"collision_rate": 0.9},

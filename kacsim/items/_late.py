@@ -161,7 +161,7 @@ def reduce(family, samples, settings):
 
 def _seconds(settings, quantity, method, leaves, family):
     each = settings["costs"]["nanoseconds"][f"{family.samplers[quantity][0]}-{method}"]
-    return 1e-9 * (each.get("draw", 0.0) + each.get("end", 0.0) * leaves)
+    return 1e-9 * (each.get("draw", 0.0) + each.get("node", 0.0) * leaves)
 
 
 def _coverage(family, samples, settings):

@@ -50,4 +50,4 @@ def of_trees(parameters, axis, law):
     rate = parameters.get("collision_rate", 1.0)
     probes = [(v, rate * time) for v in parameters[axis] for time in parameters["time"]]
     ends = sum(mean_ends(v, time, law, parameters["cut"]) for v, time in probes)
-    return {"call": len(probes), "draw": len(probes), "end": ends}
+    return {"call": len(probes), "draw": len(probes), "node": ends}

@@ -15,7 +15,7 @@ SPEEDS, EARLY, LATE = [0.0, 1.0, 4.0], [0.5, 2.0], [6.0]
 TIMES = [*EARLY, *LATE]
 FACTORS = {"ancestral": 0.05, "free_leaf": 0.8, "geometric": 1.5}  # relative deviations
 DEPARTURES = np.array([0.5, -1.1, 0.9, 1.2])  # of replicates' means, in own standard errors
-COSTS = {"draw": 100.0, "end": 40.0, "node": 10.0}
+TREES, BRANCHES = {"draw": 100.0, "node": 40.0}, {"draw": 100.0, "node": 10.0}
 SAMPLERS = {
     "boltzmann_late": {"density": "bkw", "tail": "bkw_fraction"},
     "kac_late": {"density": "kac", "tail": "kac_tail"},
@@ -61,7 +61,7 @@ def made(name, departures=DEPARTURES, factors=FACTORS, spreads=(1.0,) * 4, **cha
     `spreads` of their replicate.
     """
     kinds = (f"{one}_ancestral-{how}" for one in SAMPLERS[name].values() for how in FACTORS)
-    nanoseconds = dict.fromkeys([*kinds, "bkw", "bkw_fraction"], COSTS)
+    nanoseconds = dict.fromkeys(kinds, TREES) | dict.fromkeys(["bkw", "bkw_fraction"], BRANCHES)
     sizes = {"n_draws": 25, "late_n_draws": 9, "n_replicates": 4}
     sizes |= {"covered_n_draws": 16, "covered_n_replicates": 4}
     places = {"speed": SPEEDS, "time": EARLY, "late_time": LATE, "shown_speed": 4.0}

@@ -93,7 +93,7 @@ SAMPLES = [
     ("kacsim/kac/constants.py", "MEAN_ENERGY = 1.5", "MEAN_ENERGY = 1.0",
      ["kac-equilibrium", "kac-corners"], ["kac-bird", "bkw"]),
     ("kacsim/boltzmann/samplers.py", "are oversampled\", not_negative, 0.0", "are oversampled\", not_negative, 0.1",
-     ["bkw-c", "bkw-fraction", "kac-probe"], ["trap", "kac-bird"]),
+     ["bkw-c", "bkw-fraction-c", "kac-probe"], ["trap", "kac-bird"]),
     ("kacsim/boltzmann/constants.py", "COUPLING = 3.0", "COUPLING = 2.0", ["trap"], ["bkw", "kac"]),
     ("kacsim/kac/bird.py", "touched += (i == 0) + (j == 0)", "touched += (i == 0)",
      ["kac-bird-forward"], ["kac-bird-ancestral", "kac-poisson", "kac-nanbu", "bkw"]),

@@ -11,7 +11,12 @@ from kacsim.kernels import names, sources
 
 # What items ask of code that lies outside: names of samples, which of a case's values are its
 # algorithm's own, looking up by name; and checks of public functions' arguments, whichever.
-CHECKS = ("kacsim.checks.", "kacsim.kac.samplers.number_of_particles")
+CHECKS = (
+    "kacsim.checks.",
+    "kacsim.kac.samplers.moment_problems",
+    "kacsim.kac.samplers.number_of_particles",
+    "kacsim.kac.samplers.step_problems",
+)
 ASKED = {
     "kacsim.cases.Case.id",
     "kacsim.cases.make_case",

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from kacsim.cases import make_case
 from kacsim.items._lazy import estimate, exact, histogram, kac, np, store, xr
-from kacsim.kac.constants import MEAN_ENERGY
-from kacsim.kac.samplers import STEPPED
+from kacsim.kac.constants import MEAN_ENERGY, RATE
+from kacsim.kac.samplers import STEPPED, step_problems
 
 READINGS = ("nanbu_sequential", "nanbu_synchronous")  # of what the text says of Nanbu's partners
 FOLLOWED = ("engine", "keep_above")  # how a case follows its process, and what it keeps
@@ -40,6 +40,12 @@ KAC = Gas(
     lambda time, **process: kac.fourth_moment(time, **process),
     MEAN_ENERGY,
 )
+
+
+def problems_of_step(settings):
+    """Return (key, sentence) of a step that no case of an item checks, where all is exact."""
+    found = step_problems("Nanbu", settings["time"], settings["time_step"], RATE)
+    return [(problem.name, problem.allowed) for problem in found]
 
 
 def velocity_case(settings, algorithm, n_particles, time_step=None, *, gas=KAC, **others):

@@ -179,7 +179,7 @@ def draw(dataset):
         axes[1].axvline(value, color="0.4", lw=1, ls=dash, label=label)
     axes[1].set_yscale("log")
     axes[1].set_xlabel("raised frequency / $\\kappa\\eta$")
-    axes[1].set_ylabel("time of infinite variance")
+    axes[1].set_ylabel("time of infinite variance\nin mean collision times")
     axes[1].legend(loc="upper left")
     for k, when in enumerate(dataset.work_time.values):
         here = dataset.sel(work_time=when)

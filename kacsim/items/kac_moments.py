@@ -1,5 +1,6 @@
 """Study: moments of v_1 up to order 12 at finite N, exactly; and updates in place at N infinite."""
 
+from kacsim.items import _kac
 from kacsim.items._lazy import (
     high_moments,
     nanbu_sequential,
@@ -11,7 +12,7 @@ from kacsim.items._lazy import (
     xr,
 )
 from kacsim.kac.constants import RATE
-from kacsim.kac.samplers import TITLES, step_problems
+from kacsim.kac.samplers import TITLES
 
 ORDERS = (4, 6, 8, 10, 12)
 ALGORITHMS = ("poisson", "bird")
@@ -23,10 +24,7 @@ def cases(settings):
     return []
 
 
-def problems(settings):
-    """Return what is wrong with the step, which no case checks here."""
-    found = step_problems("Nanbu", settings["time"], settings["time_step"], RATE)
-    return [(problem.name, problem.allowed) for problem in found]
+problems = _kac.problems_of_step
 
 
 def reduce(samples, settings):

@@ -18,7 +18,7 @@ from kacsim.items._lazy import (
 )
 from kacsim.items._statements import CURVES, DEGREE, NAMES, ORDERS
 from kacsim.kac.constants import MEAN_ENERGY, RATE
-from kacsim.kac.samplers import TITLES, step_problems
+from kacsim.kac.samplers import TITLES
 
 
 def cases(settings):
@@ -26,10 +26,7 @@ def cases(settings):
     return []
 
 
-def problems(settings):
-    """Return what is wrong with the step, which no case checks here."""
-    found = step_problems("Nanbu", settings["time"], settings["time_step"], RATE)
-    return [(problem.name, problem.allowed) for problem in found]
+problems = _kac.problems_of_step
 
 
 def reduce(samples, settings):

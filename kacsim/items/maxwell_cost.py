@@ -126,7 +126,7 @@ def draw(dataset):
     axes[1].plot(dataset.growth_time, dataset.growth_exact, label="$e^t-1$", **style)
     axes[0].set_ylabel("collisions simulated per draw")
     axes[1].set_ylabel("collisions simulated per draw")
-    axes[1].set_xlabel("time $t$")
+    axes[1].set_xlabel("time $t$, in mean collision times")
     axes[2].set_ylabel("processor seconds of one draw")
     for axis in axes if np.isfinite(dataset.forward_seconds).any() else axes[:2]:
         axis.set_yscale("log")

@@ -231,6 +231,28 @@ def test_what_the_claims_measure(name):
     assert fabricated.judged(mean)[0] == "undecided"  # bars of 0.5 % and more
 
 
+CLAIMED = {
+    "boltzmann_late_tail": ("tail", 1.0),
+    "boltzmann_late_density": ("density", 1.0),
+    "boltzmann_late_centre": ("density", 0.0),
+    "kac_late_tail": ("tail", 1.0),
+}
+
+
+@pytest.mark.parametrize("claim", CLAIMED)
+def test_a_claim_on_deviations_reads_its_own_quantity_and_speeds(claim):
+    """No two cells have one deviation, which falls from the first cell to the last."""
+    name = claim.rsplit("_", 1)[0]
+    found = made(name)
+    numbered = np.arange(found.deviation.size, 0.0, -1.0).reshape(found.deviation.shape)
+    marked = found.assign(deviation=(found.deviation.dims, 1.0 + 0.1 * numbered))
+    quantity, least = CLAIMED[claim]
+    (part,) = fabricated.found(name, marked)[claim].parts
+    here = marked.deviation.sel(estimator="ancestral", quantity=quantity)
+    wanted = float(here.sel(speed=[one for one in SPEEDS if one >= least]).max())
+    assert part.measured.value == pytest.approx(wanted)
+
+
 def test_verdicts_on_many_realizations():
     """1e6 draws: reproduced; a bias of 5 %, or a deviation above what was asked: contradicted."""
     sizes = {"n_draws": 10**6, "late_n_draws": 10**6, "n_replicates": 4}

@@ -215,8 +215,10 @@ def two_at_once(make, expected, full):
     processes = [run.start(cores=1) for run in pair]
     while not pair[0].leftovers() and processes[0].poll() is None:
         time.sleep(0.05)
+    processes[0].send_signal(signal.SIGSTOP)  # or it may be done before the second has started
     command = [sys.executable, "-m", "snakemake", "-c1", *pair[0].targets, *SMOKE]
     second = subprocess.run(command, cwd=pair[0].folder, capture_output=True, text=True)
+    processes[0].send_signal(signal.SIGCONT)
     if not second.returncode or "cannot be locked" not in second.stdout + second.stderr:
         raise FaultError(f"the second run was not refused: {second.stderr[-1000:]}")
     statuses = [process.wait() for process in processes]

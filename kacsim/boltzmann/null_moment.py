@@ -73,10 +73,11 @@ def second_moment(times, ratio):
     ratio : raised frequency over kappa eta, > 0
     """
     times = np.asarray(times, dtype=float)
-    solved = _solved(float(ratio), float(max(times.max(), 1e-9)))
+    solved = _solved(float(ratio), max(LATEST, float(times.max())))
     end = solved.t[-1] if solved.status == 1 else math.inf
     inside = np.minimum(times, solved.t[-1])
-    return np.where(times < end, 1.0 / solved.sol(inside.ravel())[0].reshape(times.shape), math.inf)
+    inverse = solved.sol(inside.ravel())[0].reshape(times.shape)
+    return np.divide(1.0, inverse, out=np.full(times.shape, math.inf), where=times < end)
 
 
 def critical_time(ratio):

@@ -21,8 +21,6 @@ TEXTS = {
     "leaves": "mean number of leaves",
     "seconds": "processor time of one realization",
 }
-
-
 NAMES = {
     "ancestral": "leaves integrated out",
     "free_leaf": "one leaf integrated out",
@@ -45,6 +43,13 @@ class Family(NamedTuple):
     fixed: dict
     exact: object
     unit: object
+
+
+def problems(settings):
+    """Return (key, sentence) of each setting that does not fit another."""
+    if settings["shown_speed"] not in settings["speed"]:
+        return [("shown_speed", "must be among the values of speed")]
+    return []
 
 
 def costs(family):

@@ -1,11 +1,11 @@
 """Study: f and fractions of the BKW mode at any time and speed, by McKean's trees.
 
-Beside Algorithms 2 and 3, whose exact deviation is known up to the time where it is infinite.
+Beside Algorithms 2 and 3, whose exact deviation is known up to the time where it is infinite, and
+beside these with oversampling, whose deviation at one speed is measured.
 """
 
-import functools
-
 from kacsim import costs as kept
+from kacsim.cases import make_case
 from kacsim.items import _late
 from kacsim.items._lazy import bkw, np, plotting, second_moment, store
 
@@ -33,7 +33,35 @@ FAMILY = _late.Family(
     _unit,
 )
 BRANCHING = {"density": "bkw", "tail": "bkw_fraction"}
-cases = functools.partial(_late.cases, FAMILY)
+
+
+def problems(settings):
+    """Return (key, sentence) of each setting that does not fit another."""
+    if not set(settings["oversampled_time"]) <= set(settings["time"]):
+        return [("oversampled_time", "must be among the values of time")]
+    return _late.problems(settings)
+
+
+def _oversampled(settings):
+    """Return quantity -> case: Algorithms 2 and 3 with oversampling, at the speed that is drawn."""
+    return {
+        quantity: make_case(
+            sampler,
+            **{FAMILY.samplers[quantity][1]: [settings["shown_speed"]]},
+            time=settings["oversampled_time"],
+            oversampling=settings["oversampling"],
+            max_nodes=settings["max_nodes"],
+            n_draws=settings["oversampled_n_draws"],
+            n_replicates=settings["n_replicates"],
+            seed=settings["seed"],
+        )
+        for quantity, sampler in BRANCHING.items()
+    }
+
+
+def cases(settings):
+    """Return trees by three methods, short runs whose bars are counted, and oversampling."""
+    return [*_late.cases(FAMILY, settings), *_oversampled(settings).values()]
 
 
 def costs():
@@ -62,9 +90,38 @@ def reduce(samples, settings):
     gain = (seconds * deviation**2)[:, None] / work.sel(time=early).values
     dims = ("quantity", "estimator", "speed", "early")
     text = "seconds times variance, branching over the estimator"
-    return dataset.assign(gain=described(gain, dims, text)).assign(
+    dataset = dataset.assign(gain=described(gain, dims, text)).assign(
         _crossings(dataset, gain, settings)
     )
+    return with_oversampling(dataset, samples, settings)
+
+
+def with_oversampling(dataset, samples, settings):
+    """Return the dataset with what oversampling does at the speed that is drawn."""
+    times, speed = np.array(settings["oversampled_time"], float), settings["shown_speed"]
+    found = {name: [] for name in ("deviation", "deviation_error", "gain")}
+    for quantity, case in _oversampled(settings).items():
+        here = _late.measured(samples[case.id], case, _exact(quantity, speed, times)[None])
+        each = settings["costs"]["nanoseconds"][BRANCHING[quantity]]
+        seconds = 1e-9 * (each.get("draw", 0.0) + each["node"] * here["leaves"])
+        trees = dataset.sel(quantity=quantity, estimator=_late.METHODS[0], speed=speed, time=times)
+        work = (trees.seconds * trees.deviation**2).values
+        here["gain"] = seconds * here["deviation"] ** 2 / work
+        for name, rows in found.items():
+            rows.append(here[name][0])
+    dims, texts = (
+        ("quantity", "oversampled_time"),
+        {
+            "deviation": "relative deviation of one realization with oversampling",
+            "deviation_error": "standard error, replicates left out in turn",
+            "gain": "seconds times variance, oversampling over trees of no leaf values",
+        },
+    )
+    variables = {
+        f"oversampled_{name}": store.described(rows, dims, texts[name])
+        for name, rows in found.items()
+    }
+    return dataset.assign(variables).assign_coords(oversampled_time=times)
 
 
 def branching(settings, quantity, speed, time):
@@ -149,7 +206,10 @@ def draw(dataset):
         _late.draw_deviations(axis, dataset, quantity, speed)
         exact = dataset.branching.sel(quantity=quantity, speed=speed)
         axis.plot(dataset.early, exact, color="black", lw=1, label="branching, exact")
-        axis.set_ylim(top=2.0 * float(exact.max()))
+        over = dataset.sel(quantity=quantity)
+        _draw_oversampled(axis, over.oversampled_deviation, over.oversampled_deviation_error)
+        highest = max(float(exact.max()), float(over.oversampled_deviation.max()))
+        axis.set_ylim(top=2.0 * highest)
         axis.axvline(float(dataset.critical_time), color="0.4", lw=1, ls=":", label="$t^*$")
         axis.set_title(f"{what} {speed:g} $c_q$")
     axes[2].legend(fontsize=7, loc="lower right")
@@ -158,12 +218,29 @@ def draw(dataset):
             gain = dataset.gain.sel(quantity=quantity, speed=speed, estimator="ancestral")
             if np.isfinite(gain).any():
                 plotting.points(axis, dataset.early.values, gain, None, k, f"$c$ = {speed:g} $c_q$")
+        over = dataset.oversampled_gain.sel(quantity=quantity)
+        _draw_oversampled(axis, over, None, f", $c$ = {settings['shown_speed']:g} $c_q$")
         axis.axhline(1.0, color="0.4", lw=1)
         axis.set_yscale("log")
-        axis.set_xlim(right=3.0)  # room for a legend
+        axis.set_xlim(right=1.5 * float(dataset.oversampled_time.max()))  # room for a legend
         axis.set_xlabel("mean collision times")
         axis.set_ylabel(f"work of branching / ancestral\n{what}")
         axis.legend(fontsize=7, loc="lower right")
     labels = {"density": "density", "tail": "fraction"}
     _late.draw_coverage(axes[5], dataset, labels)
     return figure
+
+
+def _draw_oversampled(axis, values, errors, more=""):
+    """Draw what oversampling does against time, in black, open."""
+    axis.errorbar(
+        values.oversampled_time,
+        values,
+        yerr=errors,
+        fmt="x:",
+        color="black",
+        ms=4,
+        lw=0.8,
+        elinewidth=0.8,
+        label=f"oversampling{more}",
+    )

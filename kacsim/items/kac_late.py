@@ -30,6 +30,7 @@ FAMILY = _late.Family(
     _exact,
     _unit,
 )
+problems = _late.problems
 cases = functools.partial(_late.cases, FAMILY)
 costs = functools.partial(_late.costs, FAMILY)
 

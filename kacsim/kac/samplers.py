@@ -30,14 +30,7 @@ RELATIVE_TOLERANCE = 1e-13  # below this times sqrt(energy) rounding decides whe
 LARGEST_CORNERS = 1000  # particles whose corners are compared step by step
 MOST_BLOCKS = 100  # blocks per perfect draw
 LARGEST_ANCESTRY = 1e6  # mean number of ancestors; memory grows with the largest of them
-LARGEST_LABELLED, LARGEST_ENSEMBLE = 10**8, 10**15
-
-
-def labelled_ancestors(*, n_particles, **_):
-    """Yield the problem of ancestors that are told apart by labels: arrays of N."""
-    if n_particles > LARGEST_LABELLED:
-        sentence = f"must be at most {LARGEST_LABELLED} where ancestors have labels"
-        yield Problem("n_particles", n_particles, sentence)
+LARGEST_ENSEMBLE = {"forward": 10**8, "ancestral": 10**15}  # a forward one lies in memory
 
 
 def step_problems(algorithm, time, time_step, collision_rate):
@@ -50,15 +43,13 @@ def step_problems(algorithm, time, time_step, collision_rate):
         yield Problem("time_step", time_step, sentence)
 
 
-def nanbu(*, n_particles, time, time_step, collision_rate, **_):
+def nanbu(*, time, time_step, collision_rate, **_):
     """Yield the problems of Nanbu's algorithm."""
-    yield from labelled_ancestors(n_particles=n_particles)
     yield from step_problems("Nanbu", time, time_step, collision_rate)
 
 
 def nanbu_babovsky(*, n_particles, time, time_step, collision_rate, **_):
     """Yield the problems of Nanbu and Babovsky's algorithm: enough particles for its pairs."""
-    yield from labelled_ancestors(n_particles=n_particles)
     found = list(step_problems("Nanbu-Babovsky", time, time_step, collision_rate))
     yield from found
     pairs = math.ceil(collision_rate * n_particles * time_step / 2)
@@ -97,11 +88,9 @@ def kac(*, algorithm, engine, n_particles, time, collision_rate, **_):
         if algorithm != "poisson" or engine != "ancestral":
             yield Problem("n_particles", n_particles, "infinity needs ancestral poisson")
             return
-    else:
-        most = LARGEST_LABELLED if engine == "forward" else LARGEST_ENSEMBLE
-        if n_particles > most:
-            sentence = f"must be at most {most} for {engine} {algorithm}"
-            yield Problem("n_particles", n_particles, sentence)
+    elif n_particles > (most := LARGEST_ENSEMBLE[engine]):
+        sentence = f"must be at most {most} for {engine} {algorithm}"
+        yield Problem("n_particles", n_particles, sentence)
     followed = min(n_particles, math.exp(min(700.0, collision_rate * time)))
     if engine == "ancestral" and followed > LARGEST_ANCESTRY:
         yield Problem(

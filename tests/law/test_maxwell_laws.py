@@ -26,7 +26,7 @@ START = np.array([12.6, 9.0, 3.0, 0.0, 0.0, 0.0, 0.0])
 SLOPE = 9.0  # near Cov(|v|**4, |v|**2) / Var(|v|**2): 8.4 at the start, 10 at equilibrium
 STEPS = 5
 FEW_STEPS = 2
-MANY = 10**8
+MANY = 10**9
 BY_TIME, BY_STEPS = stats.poisson(TIME), stats.binom(STEPS, TIME / STEPS)
 # The exact laws of the number of collisions of one of 7 particles.
 OWN_LAWS = {

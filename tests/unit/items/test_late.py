@@ -14,6 +14,7 @@ from kacsim.boltzmann import second_moment
 SPEEDS, EARLY, LATE = [0.0, 1.0, 4.0], [0.5, 2.0], [6.0]
 TIMES = [*EARLY, *LATE]
 FACTORS = {"ancestral": 0.05, "free_leaf": 0.8, "geometric": 1.5}  # relative deviations
+OVERSAMPLED = 2.5  # the same of the papers' trees with oversampling
 DEPARTURES = np.array([0.5, -1.1, 0.9, 1.2])  # of replicates' means, in own standard errors
 TREES, BRANCHES = {"draw": 100.0, "node": 40.0}, {"draw": 100.0, "node": 10.0}
 SAMPLERS = {
@@ -66,6 +67,8 @@ def made(name, departures=DEPARTURES, factors=FACTORS, spreads=(1.0,) * 4, **cha
     sizes |= {"covered_n_draws": 16, "covered_n_replicates": 4}
     places = {"speed": SPEEDS, "time": EARLY, "late_time": LATE, "shown_speed": 4.0}
     places |= {"covered_speed": 4.0, "covered_time": [2.0]}
+    if name == "boltzmann_late":
+        places |= {"oversampled_time": [2.0], "oversampled_n_draws": 16}
     costs = {"machine": "an abacus", "nanoseconds": nanoseconds}
     chosen = fabricated.settings(name, **(sizes | places | {"costs": costs} | changes))
 
@@ -73,7 +76,8 @@ def made(name, departures=DEPARTURES, factors=FACTORS, spreads=(1.0,) * 4, **cha
         axis = "threshold" if "threshold" in case.parameters else "speed"
         quantity = "tail" if axis == "threshold" else "density"
         firsts, times = case.parameters[axis], case.parameters["time"]
-        sigma = factors[case.parameters["method"]] * np.asarray(spreads)
+        method = case.parameters.get("method")
+        sigma = (factors[method] if method else OVERSAMPLED) * np.asarray(spreads)
         values = [[np.divide(*exact(name, quantity, c, t)) for t in times] for c in firsts]
         value = np.array(values)[..., None]
         mean = value * (1.0 + np.asarray(departures) * sigma / math.sqrt(case.n_draws))
@@ -83,6 +87,36 @@ def made(name, departures=DEPARTURES, factors=FACTORS, spreads=(1.0,) * 4, **cha
         return fabricated.probes(case, {axis: firsts, "time": times}, **content)
 
     return fabricated.reduced(name, chosen, make)
+
+
+def test_oversampling_stands_beside_the_trees():
+    """At the speed that is drawn: its deviation, and its work over that of the trees."""
+    found = made("boltzmann_late")
+    assert found.oversampled_time.values.tolist() == [2.0]
+    own = DEPARTURES * OVERSAMPLED / 4.0
+    square = np.mean((1.0 + own) ** 2) + OVERSAMPLED**2 * 15.0 / 16.0
+    spread = (square - (1.0 + own.mean()) ** 2) * 64.0 / 63.0
+    trees = found.sel(speed=4.0, time=2.0, estimator="ancestral")
+    for quantity in ("density", "tail"):
+        here = found.sel(quantity=quantity, oversampled_time=2.0)
+        assert float(here.oversampled_deviation) == pytest.approx(math.sqrt(spread), rel=1e-6)
+        assert 0.0 < float(here.oversampled_deviation_error) < float(here.oversampled_deviation)
+        work = (trees.seconds * trees.deviation**2).sel(quantity=quantity)
+        gain = 1e-9 * (100.0 + 10.0 * leaves(2.0)) * spread / float(work)
+        assert float(here.oversampled_gain) == pytest.approx(gain, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("boltzmann_late", {"oversampled_time": [6.0]}),
+        ("boltzmann_late", {"shown_speed": 3.0}),
+        ("kac_late", {"shown_speed": 3.0}),
+    ],
+)
+def test_what_is_drawn_is_among_the_probes(name, changes):
+    settings = fabricated.settings(name, **changes)
+    assert [key for key, _ in items.load(name).problems(settings)] == list(changes)
 
 
 @STUDIES

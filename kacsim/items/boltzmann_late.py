@@ -222,7 +222,7 @@ def draw(dataset):
         _draw_oversampled(axis, over, None, f", $c$ = {settings['shown_speed']:g} $c_q$")
         axis.axhline(1.0, color="0.4", lw=1)
         axis.set_yscale("log")
-        axis.set_xlim(right=1.5 * float(dataset.oversampled_time.max()))  # room for a legend
+        axis.set_xlim(right=2.0 * float(dataset.oversampled_time.max()))  # room for a legend
         axis.set_xlabel("mean collision times")
         axis.set_ylabel(f"work of branching / ancestral\n{what}")
         axis.legend(fontsize=7, loc="lower right")

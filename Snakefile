@@ -2,7 +2,8 @@
 #
 #   results/samples/{case}.nc               one sampler with one set of parameters
 #   results/datasets/{item}.nc              what one published item needs, with its errors
-#   results/figures/{item}.{png,svg,pdf}    its figure; .csv: the numbers behind it
+#   results/figures/{item}.{png,svg,pdf}    its figure; .csv: the numbers behind it,
+#                                           .csv-metadata.json: what they are
 #   results/report/report.html              everything, with the verdicts; .pdf: printed
 #   results/report/runtime.html             how long the jobs took
 #

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib import patheffects, ticker
 from matplotlib.figure import Figure
 
+from kacsim.carriers import FIELD
 from kacsim.files import replace_file
 from kacsim.kernels.lookup import lazy
 
@@ -184,14 +185,21 @@ def power_of_ten(value):
     return f"${factor}10^{{{int(exponent)}}}$"
 
 
-def save(figure, path):
-    """Write a figure; the suffix sets the format and no file holds a time or a random id."""
+def save(figure, path, recipe=None):
+    """Write a figure; the suffix sets the format and no file holds a time or a random id.
+
+    Parameters
+    ----------
+    figure : matplotlib Figure
+    path : file to create or replace
+    recipe : str, how the figure was made; it stands among the metadata
+    """
     suffix = str(path).rpartition(".")[2]
     metadata = {
         "png": {"Software": None},
         "svg": {"Date": None, "Creator": None},
         "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
-    }[suffix]
+    }[suffix] | {FIELD[suffix]: recipe}
     if figure.get_layout_engine() is not None:  # all formats share one layout, made once
         figure.get_layout_engine().execute(figure)
         figure.set_layout_engine(None)

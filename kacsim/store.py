@@ -11,7 +11,6 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from kacsim import __version__
 from kacsim.files import StoreError, replace_file
 from kacsim.kernels import provenance, sources
 
@@ -34,7 +33,7 @@ def write(content, path, *, title, settings, code=""):
     attributes |= {
         "Conventions": "CF-1.11",
         "title": title,
-        "source": f"kacsim {__version__}, commit {provenance.commit()}, {provenance.versions()}",
+        "source": provenance.source(),
         "settings": json.dumps(settings, sort_keys=True),
         "code": code,
     }

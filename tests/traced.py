@@ -14,6 +14,7 @@ import tempfile
 import traceback
 from pathlib import Path
 
+import paper
 import tracer
 
 DRAWS = 20  # enough for what draws of a tree rarely do
@@ -110,15 +111,16 @@ class Entry(dict):
 
 def writers(trace, name, results):
     """Write the figure of an item and the numbers behind it."""
-    from kacsim import items, plotting, store
+    from kacsim import items, plotting, recipes, store
     from kacsim.report import csv_table
 
     dataset = store.read(Path(results) / "datasets" / f"{name}.nc")
     figure = items.load(name).draw(dataset)
     with tempfile.TemporaryDirectory() as folder, trace.running("draw"):
+        recipe = recipes.of_figure(dataset, "")
         for suffix in ("svg", "png", "pdf"):
-            plotting.save(figure, f"{folder}/figure.{suffix}")
-        csv_table.write(dataset, f"{folder}/figure.csv")
+            plotting.save(figure, f"{folder}/figure.{suffix}", recipe)
+        csv_table.write(dataset, f"{folder}/figure.csv", recipe)
 
 
 def pages(trace, results):
@@ -128,13 +130,7 @@ def pages(trace, results):
 
     results = Path(results)
     with tempfile.TemporaryDirectory() as folder:
-        browser, html = Path(folder) / "browser", f"{folder}/report.html"
-        browser.write_text(
-            '#!/bin/sh\nfor word; do case "$word" in --print-to-pdf=*) '
-            'echo pdf > "${word#--print-to-pdf=}";; esac; done\n',
-            encoding="utf-8",
-        )
-        browser.chmod(0o755)
+        browser, html = paper.browser(Path(folder) / "bin"), f"{folder}/report.html"
         shown = items.NAMES
         with trace.running("page"):
             page.write(shown, results / "datasets", results / "figures", html)

@@ -92,8 +92,9 @@ def write_sample(variables, path, case):
     if str(path).endswith(".csv"):
         import xarray as xr
 
+        from kacsim import recipes
         from kacsim.report import csv_table
 
-        csv_table.write(xr.Dataset(variables), path)
+        csv_table.write(xr.Dataset(variables), path, recipes.of_case(case))
         return
     store.write_sample(variables, path, case)

@@ -10,23 +10,27 @@ def add(parser):
     """Add the options."""
     parser.add_argument("item")
     parser.add_argument("--dataset", required=True)
-    parser.add_argument("--output", required=True, nargs="+", help="svg, png, pdf, csv; sha256")
+    parser.add_argument(
+        "--output", required=True, nargs="+", help="svg, png, pdf, csv; csv-metadata.json, sha256"
+    )
 
 
 def run(arguments):
     """Draw the figure of an item, and write the numbers behind it."""
     module = _shared.known_item(arguments.item)
-    from kacsim import files, plotting, store
+    from kacsim import carriers, files, plotting, recipes, store
+    from kacsim.jobs import stages
     from kacsim.report import csv_table
 
     dataset = store.read_dataset(arguments.dataset, arguments.item)
+    recipe = recipes.of_figure(dataset, stages.code(stages.draw_roots(arguments.item)))
     figure = module.draw(dataset)
     sums = [path for path in arguments.output if path.endswith(".sha256")]
     drawn = [path for path in arguments.output if path not in sums]
     for path in drawn:
         if path.endswith(".csv"):
-            csv_table.write(dataset, path)
-        else:
-            plotting.save(figure, path)
+            csv_table.write(dataset, path, recipe)
+        elif not path.endswith(carriers.TABLE):  # which a table brings with it
+            plotting.save(figure, path, recipe)
     for path in sums:
         files.write_sums(drawn, path)

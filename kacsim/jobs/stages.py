@@ -5,7 +5,11 @@ import json
 from kacsim import items
 from kacsim.kernels import sources
 
-WRITERS = (("kacsim.plotting", "save"), ("kacsim.report.csv_table", "write"))
+WRITERS = (
+    ("kacsim.plotting", "save"),
+    ("kacsim.recipes", "of_figure"),
+    ("kacsim.report.csv_table", "write"),
+)
 
 
 def sample_roots(case):

@@ -6,6 +6,8 @@ import platform
 import subprocess
 from pathlib import Path
 
+from kacsim import __version__
+
 PACKAGE = Path(__file__).resolve().parent.parent
 ROOT = PACKAGE.parent
 ANCHORED = ("kacsim", "workflow", "reports", "Snakefile", "environment.txt")
@@ -47,3 +49,8 @@ def versions(libraries=("numpy", "numba", "scipy")):
     """Return the versions that can change the bits of a result, as one sentence."""
     parts = [f"Python {platform.python_version()}"]
     return ", ".join(parts + [f"{name} {version(name)}" for name in libraries])
+
+
+def source():
+    """Return the version, the commit and the versions of libraries, as one sentence."""
+    return f"kacsim {__version__}, commit {commit()}, {versions()}"

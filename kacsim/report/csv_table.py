@@ -7,20 +7,56 @@ that is not empty gives a table with values, errors and exact values beside each
 
 import csv
 import itertools
+import json
+from pathlib import Path
 
+from kacsim import carriers
 from kacsim.files import replace_file
 
 BIN, EDGE = "bin", "edge"  # bins have no coordinate but edges, one more than bins
 
 
-def write(dataset, path):
-    """Write a dataset as CSV: the same dataset gives the same bytes."""
+KINDS = {"f": "double", "i": "integer", "u": "integer", "b": "boolean"}  # of CSV on the Web
+
+
+def write(dataset, path, recipe):
+    """Write a dataset as CSV, and beside it what its columns are and how it was made.
+
+    The same dataset gives the same bytes. What lies beside has the form of CSV on the Web.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    path : file to create or replace; the other one's name is longer by ``carriers.TABLE``
+    recipe : str, how the dataset was made
+    """
 
     def to(name):
         with open(name, "w", newline="", encoding="utf-8") as file:
             csv.writer(file, lineterminator="\n").writerows(table(dataset))
 
     replace_file(path, to)
+    about = {
+        "@context": "http://www.w3.org/ns/csvw",
+        "url": Path(path).name,
+        "dc:title": dataset.attrs.get("title", Path(path).stem),
+        "dc:description": recipe,
+        "tableSchema": {"columns": [_described(dataset, name) for name in next(table(dataset))]},
+    }
+    text = json.dumps(about, indent=1, sort_keys=True) + "\n"
+    beside = carriers.beside(path)
+    replace_file(beside, lambda name: Path(name).write_text(text, encoding="utf-8"))
+
+
+def _described(dataset, head):
+    """Return what a column holds, from its head."""
+    name = head.partition(" [")[0]
+    there = dataset.variables.get(EDGE if name in ("bin_from", "bin_to") else name)
+    kind = "integer" if there is None else KINDS.get(there.dtype.kind, "string")
+    about = {"titles": head, "name": name, "datatype": kind, "null": ""}
+    if there is not None and "long_name" in there.attrs:
+        about["dc:description"] = there.attrs["long_name"]
+    return about
 
 
 def table(dataset):

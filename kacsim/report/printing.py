@@ -1,12 +1,12 @@
 """The report on paper: Chromium, where one is installed, prints the page to PDF."""
 
 import os
-import shutil
 import signal
 import subprocess
 import tempfile
 from pathlib import Path
 
+from kacsim import carriers, recipes
 from kacsim.files import StoreError, replace_file
 from kacsim.report import browser
 from kacsim.report.page import read_text, without_files
@@ -26,7 +26,7 @@ SECONDS = 300
 
 
 def write(report, output, chromium=None):
-    """Print a report to PDF. Chromium writes the date into it, so its bytes differ from run to run.
+    """Print a report to PDF; the same page and browser give the same bytes.
 
     Parameters
     ----------
@@ -37,17 +37,19 @@ def write(report, output, chromium=None):
     Raises
     ------
     StoreError
-        If there is no Chromium, or it fails, with the last of what it said.
+        If there is no Chromium, or it fails, with the last of what it said, or the page is no
+        report.
     """
     chromium = chromium or browser.find()
     if chromium is None:
         raise StoreError(f"{output}: not printed: {browser.NONE}")
     output = Path(output).absolute()
     html = without_files(read_text(Path(report)))
-    replace_file(output, lambda name: _print(html, name, chromium))
+    recipe = recipes.of_report(*carriers.of_page(html, report))
+    replace_file(output, lambda name: _print(html, name, chromium, recipe))
 
 
-def _print(html, output, chromium):
+def _print(html, output, chromium, recipe):
     # Beside the output: a Chromium that is packed as a snap may not see the folder of temporaries.
     with tempfile.TemporaryDirectory(dir=Path(output).parent, ignore_cleanup_errors=True) as folder:
         page, pdf = Path(folder) / "page.html", Path(folder) / "page.pdf"
@@ -57,7 +59,27 @@ def _print(html, output, chromium):
         said = _run([chromium, *QUIET, *root, *own])
         if not pdf.exists() or pdf.stat().st_size == 0:
             raise StoreError(f"{chromium}: printed nothing: {said.strip()[-300:]}")
-        shutil.copyfile(pdf, output)
+        settle(pdf, output, recipe)
+
+
+def settle(pdf, output, recipe):
+    """Write a PDF file again without times and random ids, with a recipe among its metadata.
+
+    Raises
+    ------
+    StoreError
+        If it is not a PDF file.
+    """
+    import pikepdf
+
+    try:
+        with pikepdf.open(pdf) as file:
+            for key in ("/CreationDate", "/ModDate"):
+                file.docinfo.pop(key, None)
+            file.docinfo[f"/{carriers.FIELD['pdf']}"] = recipe
+            file.save(output, deterministic_id=True)
+    except pikepdf.PdfError as error:
+        raise StoreError(f"{pdf}: is not a PDF file: {error}") from error
 
 
 def _run(command):

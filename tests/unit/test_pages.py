@@ -2,35 +2,31 @@
 
 import os
 
+import paper
+import pikepdf
 import pytest
 
-from kacsim import cli, files, plan
+from kacsim import carriers, cli, files, plan, recipes
 from kacsim.report import browser, printing, runtime
 
-FAKE = """#!/bin/sh
-for word; do case $word in --print-to-pdf=*) pdf=${word#*=};; esac; done
-%s
-"""
+PAGE = '<p class="source">kacsim 0</p><code id="configuration">{"a": {}}</code>'
 
 
 @pytest.fixture
 def fake(tmp_path, monkeypatch):
     """Return a function that makes a browser of one shell line the one to be found."""
 
-    def make(line):
-        path = tmp_path / "bin" / "chromium"
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(FAKE % line)
-        path.chmod(0o755)
+    def make(*lines):
+        path = paper.browser(tmp_path / "bin", *lines)
         monkeypatch.setenv(browser.VARIABLE, str(path))
-        (tmp_path / "report.html").write_text("<p>report</p>")
+        (tmp_path / "report.html").write_text(PAGE)
         return tmp_path / "report.html", tmp_path / "out" / "report.pdf"
 
     return make
 
 
 def test_the_browser_is_the_named_one_or_none(monkeypatch, fake, tmp_path):
-    fake("exit 0")
+    fake()
     assert browser.find() == str(tmp_path / "bin/chromium")
     for nothing in ("", str(tmp_path / "missing")):
         monkeypatch.setenv(browser.VARIABLE, nothing)
@@ -41,10 +37,36 @@ def test_the_browser_is_the_named_one_or_none(monkeypatch, fake, tmp_path):
 
 
 def test_a_report_is_printed_whole(fake):
-    page, pdf = fake('echo "%PDF" > "$pdf"')
+    page, pdf = fake()
     printing.write(page, pdf)
-    assert pdf.read_text() == "%PDF\n"
     assert os.listdir(pdf.parent) == ["report.pdf"]
+    with pikepdf.open(pdf) as file:
+        assert len(file.pages) == 1
+        assert "/CreationDate" not in file.docinfo
+
+
+def test_a_print_has_the_same_bytes_and_carries_the_recipe(fake):
+    page, pdf = fake()
+    printing.write(page, pdf)
+    first = pdf.read_bytes()
+    printing.write(page, pdf)
+    assert pdf.read_bytes() == first
+    recipe = recipes.parsed(carriers.read(pdf), pdf)
+    assert recipe == recipes.Recipe("", {"a": {}}, {}, "kacsim 0")
+
+
+def test_what_is_no_pdf_is_refused(fake):
+    page, pdf = fake('echo nothing > "$pdf"')
+    with pytest.raises(files.StoreError, match="is not a PDF file"):
+        printing.write(page, pdf)
+    assert os.listdir(pdf.parent) == []
+
+
+def test_a_page_that_is_no_report_is_refused(fake):
+    page, pdf = fake()
+    page.write_text("<p>a page</p>")
+    with pytest.raises(files.StoreError, match=r"report\.html: is no report"):
+        printing.write(page, pdf)
 
 
 def test_a_browser_that_fails_is_named_with_what_it_said(fake):

@@ -13,7 +13,10 @@ rule draw:
             subcategory=labels.part_of,
             labels=labels.labels_of,
         ),
-        expand("results/figures/{{item}}.{format}", format=(*FORMATS[1:], "sha256")),
+        expand(
+            "results/figures/{{item}}.{format}",
+            format=(*FORMATS[1:], "csv-metadata.json", "sha256"),
+        ),
     log:
         "logs/draw/{item}.log",
     benchmark:

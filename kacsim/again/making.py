@@ -1,0 +1,81 @@
+"""A file made again: samples here, everything else by the workflow in a folder of its own."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from kacsim import items, plotting, store
+from kacsim.files import StoreError, replace_file
+from kacsim.jobs import sampling
+from kacsim.kernels.provenance import ROOT
+from kacsim.report import csv_table, printing
+
+CONFIG = "recipe.json"
+LAST = 12  # lines of a failed run that are shown
+
+
+def make(order, output, scratch, cores, advance=None):
+    """Make the file of an order again; it carries the recipe of the first one.
+
+    Parameters
+    ----------
+    order : kacsim.again.reading.Order
+    output : Path of the file to write
+    scratch : folder for what it is made from
+    cores : int, jobs at a time
+    advance : callable(draws done), for samples
+
+    Raises
+    ------
+    StoreError
+        Says what failed.
+    """
+    if order.case:
+        sampling.load(order.case)
+        variables = sampling.run(order.case, advance)
+        _write_samples(variables, order, output)
+        return
+    if not order.recipe.item:
+        target = _run(order, f"results/report/report{output.suffix}", scratch, cores)
+        if output.suffix == ".pdf":
+            replace_file(output, lambda name: printing.settle(target, name, order.text))
+        else:
+            _copy(target, output)
+        return
+    name = order.recipe.item
+    target = _run(order, f"results/datasets/{name}.nc", scratch, cores)
+    dataset = store.read_dataset(target, name)
+    if output.suffix == ".nc":
+        _copy(target, output)
+    elif output.suffix == ".csv":
+        csv_table.write(dataset, output, order.text)
+    else:
+        plotting.save(items.load(name).draw(dataset), output, order.text)
+
+
+def _copy(source, output):
+    replace_file(output, lambda name: Path(name).write_bytes(source.read_bytes()))
+
+
+def _write_samples(variables, order, output):
+    if output.suffix == ".csv":
+        import xarray as xr
+
+        csv_table.write(xr.Dataset(variables), output, order.text)
+    else:
+        store.write_sample(variables, output, order.case)
+
+
+def _run(order, target, scratch, cores):
+    """Run the workflow for one file, with the settings of the recipe as its configuration."""
+    folder = Path(scratch)
+    (folder / CONFIG).write_text(json.dumps(order.plan.config), encoding="utf-8")
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
+    command += ["--directory", str(folder), "--configfile", str(folder / CONFIG)]
+    command += ["--cores", str(cores), "--quiet", "all", "--", target]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        said = "\n".join((done.stdout + done.stderr).splitlines()[-LAST:])
+        raise StoreError(f"{order.path}: cannot be made again:\n{said}")
+    return folder / target

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from kacsim import carriers, items, plan, recipes, store
 from kacsim.cases import make_case
-from kacsim.checks import Problem
 from kacsim.files import StoreError
 from kacsim.jobs import stages
 from kacsim.kernels import provenance, sources
@@ -59,12 +58,13 @@ def read(path):
     else:
         text = carriers.read(path)
         recipe = recipes.parsed(text, path)
-    if recipe.item == "":
+    if recipe.item == "" and "sampler" in recipe.settings:
         return Order(path, text, recipe, case_of(recipe.settings, path), None)
+    if recipe.item == "":
+        return Order(path, text, recipe, None, plan_of(recipe.settings, path))
     if recipe.item not in items.NAMES:
-        raise StoreError(
-            f"{path}: item = {recipe.item!r} in its recipe: is not one of this version"
-        )
+        what = f"item = {recipe.item!r} in its recipe"
+        raise StoreError(f"{path}: {what}: is not one of this version")
     checked = plan_of({recipe.item: recipe.settings}, path)
     return Order(path, text, recipe, None, checked)
 
@@ -110,7 +110,7 @@ def case_of(settings, path):
     except (ValueError, TypeError) as error:
         raise StoreError(f"{path}: its recipe: {error}") from error
     if problems:
-        raise StoreError("\n".join(f"{path}: {Problem(*one)}" for one in problems))
+        raise StoreError("\n".join(f"{path}: {one}" for one in problems))
     return case
 
 

@@ -75,7 +75,8 @@ def settle(pdf, output, recipe):
     try:
         with pikepdf.open(pdf) as file:
             for key in ("/CreationDate", "/ModDate"):
-                file.docinfo.pop(key, None)
+                if key in file.docinfo:
+                    del file.docinfo[key]
             file.docinfo[f"/{carriers.FIELD['pdf']}"] = recipe
             file.save(output, deterministic_id=True)
     except pikepdf.PdfError as error:

@@ -185,7 +185,7 @@ def test_what_differs_here_is_told_a_line_each(dataset, settings, tmp_path):
         "sources",
     ]
     assert lines[0] == "settings: other x here"
-    assert lines[1] == "sources: other code here to reduce and draw"
+    assert lines[1] == "sources: other code here to draw and reduce"
     assert lines[2].startswith("versions: kacsim ")
     assert "here, kacsim 0.1 there" in lines[2]
     assert lines[3] == "sources: made from files with changes that no commit holds"

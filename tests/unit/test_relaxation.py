@@ -98,24 +98,22 @@ def test_the_start_is_exact():
 @pytest.mark.parametrize("cut", [0.0, 0.5])
 @pytest.mark.parametrize(("law", "kind"), [(BKW, constants.BKW), (KAC, constants.KAC)])
 def test_a_general_tree_gives_what_the_kernel_of_its_law_gives(law, kind, cut, seed):
-    """Twins in law: a tree's sum is that of a kernel with closed forms of its leaves."""
+    """The same draws again; and each end of a tree by closed forms, cut at any age or not."""
     found = Relaxation(law, lambda z: 1.0 / z, 3.1, 1.8, kind, cut)
-    values, nodes = np.empty(20), np.empty(20, np.int64)
+    values, nodes, again = np.empty(20), np.empty(20, np.int64), np.empty(20)
     assert found(values, nodes, new_stream(seed))
+    assert found(again, nodes, new_stream(seed))
+    np.testing.assert_array_equal(values, again)
+    beta, ell = constants.BETA[kind], constants.ELL[kind]
+    order = np.arange(1, 7)
+    logs = -((-beta) ** order) / order + ell * (order == 1)
+    np.testing.assert_allclose(found.series[:6], logs, rtol=1e-6)
     z = np.sqrt(found.squares)
-    again = new_stream(seed)
-    again_values = np.empty(20)
-    assert found(again_values, nodes, again)
-    np.testing.assert_array_equal(values, again_values)
-    # One tree by hand: the last one's ends and sums are still there.
-    listed = int(nodes[-1]) if found.sums[0] == 0.0 else None
-    if listed:
-        shares, left = found.shares[:listed], found.left[:listed]
-        beta, ell = constants.BETA[kind], constants.ELL[kind]
-        kept = shares * np.exp(-constants.KAPPA[kind] * left)
-        square = beta * z[:, None] ** 2
-        factors = np.exp(square * (shares - kept)) * (1.0 + square * kept)
-        wanted = np.exp(ell * z**2) * factors.prod(axis=1)
-        parts = found.transforms(shares, left)
-        tilt = np.exp(found.b * (shares - kept)) * (1.0 + found.b * kept)
-        np.testing.assert_allclose(parts.prod(axis=0) * tilt.prod(), wanted, rtol=1e-6)
+    left = np.array([0.0, 0.4, 1.1, 1.8]) * (cut > 0.0)
+    shares = found.cut * np.array([0.3, 0.9, 0.6, 0.95]) if cut else np.full(4, 0.2)
+    kept = (shares * np.exp(-constants.KAPPA[kind] * left))[:, None]
+    square = beta * z**2
+    wanted = np.exp(ell * z**2 * shares[:, None] + square * (shares[:, None] - kept))
+    wanted *= 1.0 + square * kept
+    tilt = np.exp(found.b * (shares[:, None] - kept)) * (1.0 + found.b * kept)
+    np.testing.assert_allclose(found.transforms(shares, left) * tilt, wanted, rtol=1e-9)

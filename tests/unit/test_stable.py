@@ -43,6 +43,17 @@ def test_the_stable_interval_covers_as_often_as_it_says(seed):
         assert abs(wrong - stable.LEVEL) > 4.0 * SPREAD + 0.02
 
 
+def test_the_stable_interval_fails_as_often_on_either_side(seed):
+    """Turned over, the skewed law's interval covers nearly as often, but fails on one side."""
+    values = pareto(np.random.default_rng(seed))
+    mean, n = values.mean(axis=(1, 2)), BLOCKS * BLOCK
+    low, high = stable.stable_interval(mean, n, SCALE**INDEX, INDEX)
+    side = 0.5 - stable.LEVEL / 2.0
+    room = 4.0 * math.sqrt(side * (1.0 - side) / RUNS) + 0.02
+    for share in ((low > MEAN).mean(), (high < MEAN).mean()):
+        assert abs(share - side) < room
+
+
 def test_the_constant_from_the_largest_serves(seed):
     values = pareto(np.random.default_rng(seed))
     constant = stable.frechet_constant(values.max(axis=-1), BLOCK, INDEX)

@@ -57,6 +57,8 @@ class Parameter:
     many : bool, a list of values
     whole : callable(name, values) that yields problems of a list as such
     shown : bool, part of the id even where it has its default
+    settle : callable(value) -> what a case keeps of it, if that is not the value itself
+    token : callable(value) -> its part of the id, if that is not the value itself
     """
 
     name: str
@@ -68,6 +70,8 @@ class Parameter:
     many: bool = False
     whole: Callable | None = None
     shown: bool = False
+    settle: Callable | None = None
+    token: Callable | None = None
 
     def problems(self, value):
         """Return the list of what is wrong with a value."""
@@ -170,6 +174,8 @@ class Sampler:
         for name, parameter in known.items():
             default = None if parameter.default is REQUIRED else parameter.default
             value = given.get(name)
+            if value is not None and parameter.settle:
+                value = parameter.settle(value)
             complete[name] = default if value is None else value
         return complete
 

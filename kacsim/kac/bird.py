@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.kac import model
+from kacsim.kac import model, own_law
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
@@ -30,7 +30,7 @@ def forward_draws(law):
     ensemble, start, collide, copy = law.ensemble, law.start, law.collide, law.copy
 
     @kernel
-    def forward(velocities, own, n_particles, n_collisions, stream):
+    def forward(velocities, own, n_particles, n_collisions, stream, tables=()):
         """Draw v_1(t) from whole ensembles, as published.
 
         Parameters
@@ -39,12 +39,13 @@ def forward_draws(law):
         own : int64[n], overwritten by the number of collisions of particle 1
         n_particles, n_collisions : int, from `arguments`
         stream : from `new_stream`, advanced
+        tables : what the law of collisions draws from, if it has tables
 
         Returns
         -------
         int, collisions simulated
         """
-        v = ensemble(n_particles)
+        v = ensemble(n_particles, tables)
         for draw in range(len(velocities)):
             for i in range(n_particles):
                 start(v, i, stream)
@@ -108,6 +109,8 @@ def history(arguments, scales, tape, start, root, stream):
 
 forward = forward_draws(model)
 ancestral = ancestral_draws(model, prepare, history)
+own_forward = forward_draws(own_law)
+own_ancestral = ancestral_draws(own_law, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate):

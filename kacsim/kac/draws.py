@@ -1,10 +1,13 @@
 """The public draws of Kac's model."""
 
+import functools
+from pathlib import Path
+
 import numpy as np
 
 from kacsim import checks
 from kacsim.cases import make_case
-from kacsim.kac import perfect, perfect_blocks
+from kacsim.kac import own_drawn, perfect, perfect_blocks, samplers
 from kacsim.kac.constants import RATE
 from kacsim.kernels.lookup import named
 from kacsim.streams import new_stream
@@ -20,12 +23,15 @@ def kernel_of(parameters):
     # By names that are no literals: a literal would make every case depend on all algorithms'.
     arguments, kernel = (
         named("kacsim.kac", parameters["algorithm"], part)
-        for part in ("arguments", parameters["engine"])
+        for part in ("arguments", samplers.entry(parameters))
     )
+    if samplers.is_own(parameters):
+        tables = own_drawn.tables(*(parameters.get(name) for name in samplers.LAWS))
+        kernel = functools.partial(kernel, tables=tables)
     return kernel, arguments(**own)
 
 
-NOT_OF_THE_ENSEMBLE = ("algorithm", "engine", "keep_above")
+NOT_OF_THE_ENSEMBLE = ("algorithm", *samplers.HOW_TO_DRAW)
 
 
 def draw(
@@ -37,6 +43,8 @@ def draw(
     seed,
     collision_rate=RATE,
     engine="ancestral",
+    initial=None,
+    scattering=None,
     **parameters,
 ):
     """Draw independent values of v_1(t), each from an ensemble of its own (Kac paper, section 4).
@@ -50,6 +58,14 @@ def draw(
     seed : int >= 0; the same arguments give the same bits
     collision_rate : float > 0, sqrt(pi) / 2 in the paper
     engine : "ancestral" (particle 1's ancestors only) or "forward" (as published); same law
+    initial : law of the velocities at time 0: "f0" (default, the paper's), "two_peaks", "uniform"
+        or "maxwell", which all have E v**2 = 3/2; a CSV file of a density with the columns x and
+        density, linear between its points; or a table of `kacsim.techniques.tabulate`
+    scattering : law of the angle theta of a collision, (v, w) -> (v cos(theta) + w sin(theta),
+        w cos(theta) - v sin(theta)) (Kac paper, section 2.1): "uniform" (default), "forward" (a
+        triangle up to pi / 2), "grazing" (uniform up to pi / 8), or a file or a table as for
+        `initial`, in radians. Either of a pair may be the first, so that of its density rho the
+        even part (rho(theta) + rho(-theta)) / 2 matters only.
     parameters : those that the algorithm has beside these: time_step of the Nanbu family, a float
         that divides time, with collision_rate * time_step <= 1
 
@@ -62,6 +78,8 @@ def draw(
     ValueError
         Names the argument, its value and what is allowed.
     """
+    laws = {"initial": initial, "scattering": scattering}
+    named_laws = {name: law for name, law in laws.items() if isinstance(law, (str, Path))}
     case = make_case(
         "kac",
         algorithm=algorithm,
@@ -73,9 +91,12 @@ def draw(
         n_replicates=1,
         seed=seed,
         **parameters,
+        **named_laws,
     )
-    checks.raise_problems(case.problems())
-    kernel, arguments = kernel_of(case.parameters)
+    checks.raise_problems(case.problems(), samplers.own_law_problems(algorithm, **laws))
+    # A case is made of words; tables in memory do not pass through it.
+    tables = {name: law for name, law in laws.items() if name not in named_laws}
+    kernel, arguments = kernel_of(case.parameters | tables)
     velocities, own = np.empty(n_draws), np.empty(n_draws, np.int64)
     kernel(velocities, own, *arguments, new_stream(seed, f"kac.draw {algorithm} {engine}"))
     return velocities

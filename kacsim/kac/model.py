@@ -1,7 +1,8 @@
 """Kac's model: the initial law f0 and the collision (Kac paper, sections 2.1 and 3).
 
 A module like this one is a law of collisions. The algorithms beside it say who collides with whom,
-and take the law as a parameter: `kacsim.maxwell.model` is another one. A law has
+and take the law as a parameter: `kacsim.kac.own_law`, which draws from tables that a call gives,
+and `kacsim.maxwell.model` are others. A law has
 
 - for whole ensembles `ensemble`, `start`, `collide`, `deflect` and `copy`;
 - for the collisions on a tape `new_state` and `fill`, then `share`, `receive`, `foresee` and
@@ -25,8 +26,8 @@ from kacsim.variates import (
 
 
 @allocating
-def ensemble(n_particles):
-    """Return an array for the velocities of particles."""
+def ensemble(n_particles, tables):
+    """Return an array for the velocities of particles; this law has no tables."""
     return np.empty(n_particles)
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import int64
 
-from kacsim.kac import model
+from kacsim.kac import model, own_law
 from kacsim.kac.constants import n_steps
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
@@ -28,7 +28,7 @@ def forward_draws(law):
     ensemble, start, collide, copy = law.ensemble, law.start, law.collide, law.copy
 
     @kernel
-    def forward(velocities, own, n_particles, steps, mean_pairs, stream):
+    def forward(velocities, own, n_particles, steps, mean_pairs, stream, tables=()):
         """Draw v_1(t) from whole ensembles, as published.
 
         At each step Round[mean_pairs] pairs are drawn without replacement, by a partial shuffle.
@@ -39,12 +39,13 @@ def forward_draws(law):
         own : int64[n], overwritten by the number of collisions of particle 1
         n_particles, steps, mean_pairs : from `arguments`
         stream : from `new_stream`, advanced
+        tables : what the law of collisions draws from, if it has tables
 
         Returns
         -------
         int, collisions simulated
         """
-        v = ensemble(n_particles)
+        v = ensemble(n_particles, tables)
         order = np.arange(n_particles)
         whole = int64(mean_pairs)
         simulated = 0
@@ -189,6 +190,8 @@ def history(arguments, prepared, tape, start, root, stream):
 
 forward = forward_draws(model)
 ancestral = ancestral_draws(model, prepare, history)
+own_forward = forward_draws(own_law)
+own_ancestral = ancestral_draws(own_law, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, time_step, collision_rate):

@@ -3,14 +3,14 @@
 import numpy as np
 from numba import int64
 
-from kacsim.kac import model
+from kacsim.kac import model, own_law
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
 from kacsim.variates import failures_before_success, gap_scale
 
-__all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
+__all__ = ["ancestral", "arguments", "forward", "fourth_moment", "own_ancestral", "own_forward"]
 
 
 def forward_draws(law):
@@ -23,7 +23,7 @@ def forward_draws(law):
     ensemble, start, deflect, copy = law.ensemble, law.start, law.deflect, law.copy
 
     @kernel
-    def forward(velocities, own, n_particles, steps, probability, stream):
+    def forward(velocities, own, n_particles, steps, probability, stream, tables=()):
         """Draw v_1(t) from whole ensembles, updated in place for i = 1..N.
 
         Parameters
@@ -32,12 +32,13 @@ def forward_draws(law):
         own : int64[n], overwritten by the number of velocity changes of particle 1
         n_particles, steps, probability : from `arguments`
         stream : from `new_stream`, advanced
+        tables : what the law of collisions draws from, if it has tables
 
         Returns
         -------
         int, collisions simulated
         """
-        v = ensemble(n_particles)
+        v = ensemble(n_particles, tables)
         scale = gap_scale(probability)
         simulated = 0
         for draw in range(len(velocities)):
@@ -125,6 +126,8 @@ def in_place(law):
 
 forward = forward_draws(model)
 ancestral = ancestral_draws(model, prepare, history, in_place)
+own_forward = forward_draws(own_law)
+own_ancestral = ancestral_draws(own_law, prepare, history, in_place)
 
 
 def fourth_moment(**process):

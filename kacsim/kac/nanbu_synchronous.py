@@ -3,14 +3,14 @@
 import numpy as np
 from numba import int64
 
-from kacsim.kac import model
+from kacsim.kac import model, own_law
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
 from kacsim.kac.nanbu import arguments, leave_step, partner_of
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import inlined, kernel
 from kacsim.variates import failures_before_success, gap_scale
 
-__all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
+__all__ = ["ancestral", "arguments", "forward", "fourth_moment", "own_ancestral", "own_forward"]
 
 
 def forward_draws(law):
@@ -23,13 +23,13 @@ def forward_draws(law):
     ensemble, start, deflect, copy = law.ensemble, law.start, law.deflect, law.copy
 
     @kernel
-    def forward(velocities, own, n_particles, steps, probability, stream):
+    def forward(velocities, own, n_particles, steps, probability, stream, tables=()):
         """Draw v_1(t) from whole ensembles, partners read at the old time level.
 
         Parameters and result as `kacsim.kac.nanbu_sequential.forward`.
         """
-        v = ensemble(n_particles)
-        changed, new = np.empty(n_particles, np.int64), ensemble(n_particles)
+        v = ensemble(n_particles, tables)
+        changed, new = np.empty(n_particles, np.int64), ensemble(n_particles, tables)
         scale = gap_scale(probability)
         simulated = 0
         for draw in range(len(velocities)):
@@ -123,6 +123,8 @@ def at_old_level(law):
 
 forward = forward_draws(model)
 ancestral = ancestral_draws(model, prepare, history, at_old_level)
+own_forward = forward_draws(own_law)
+own_ancestral = ancestral_draws(own_law, prepare, history, at_old_level)
 
 
 def fourth_moment(**process):

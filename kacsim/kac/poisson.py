@@ -11,7 +11,7 @@ import numpy as np
 from numba import int64
 
 from kacsim.elementary.exponential import expm1
-from kacsim.kac import model
+from kacsim.kac import model, own_law
 from kacsim.kac.moments import INITIAL_SQUARE, gain
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined, kernel
@@ -54,7 +54,7 @@ def forward_draws(law):
     ensemble, start, collide, copy = law.ensemble, law.start, law.collide, law.copy
 
     @kernel
-    def forward(velocities, own, n_particles, mean_own, pair_rate, stream):
+    def forward(velocities, own, n_particles, mean_own, pair_rate, stream, tables=()):
         """Draw v_1(t) from whole ensembles, as published.
 
         The sorted uniform times of particle 1's K collisions are drawn one after another: the first
@@ -66,12 +66,13 @@ def forward_draws(law):
         own : int64[n], overwritten by the number of collisions of particle 1
         n_particles, mean_own, pair_rate : from `arguments`
         stream : from `new_stream`, advanced
+        tables : what the law of collisions draws from, if it has tables
 
         Returns
         -------
         int, collisions simulated
         """
-        v = ensemble(n_particles)
+        v = ensemble(n_particles, tables)
         others = n_particles - 1
         others_rate = pair_rate * others * (others - 1) / 2
         simulated = 0
@@ -139,6 +140,8 @@ def history(arguments, pauses, tape, start, root, stream):
 
 forward = forward_draws(model)
 ancestral = ancestral_draws(model, prepare, history)
+own_forward = forward_draws(own_law)
+own_ancestral = ancestral_draws(own_law, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate):

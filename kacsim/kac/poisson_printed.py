@@ -8,14 +8,14 @@ import numpy as np
 from numba import int64
 from scipy import linalg
 
-from kacsim.kac import model
+from kacsim.kac import model, own_law
 from kacsim.kac.moments import INITIAL_PRODUCT, INITIAL_SQUARE
-from kacsim.kac.poisson import forward
+from kacsim.kac.poisson import forward, own_forward
 from kacsim.kac.tape import ancestral_draws
 from kacsim.kernels.jit import allocating, inlined
 from kacsim.variates import exponential, two_below, uniform
 
-__all__ = ["ancestral", "arguments", "forward", "fourth_moment"]
+__all__ = ["ancestral", "arguments", "forward", "fourth_moment", "own_ancestral", "own_forward"]
 
 
 def arguments(*, n_particles, time, collision_rate):
@@ -64,6 +64,7 @@ def history(arguments, pauses, tape, start, root, stream):
 
 
 ancestral = ancestral_draws(model, prepare, history)
+own_ancestral = ancestral_draws(own_law, prepare, history)
 
 
 def fourth_moment(*, n_particles, time, collision_rate, pair_rate=None):

@@ -7,7 +7,7 @@ import math
 from kacsim.boltzmann.samplers import BUDGET, TREE, grid
 from kacsim.boltzmann.work import of_kac
 from kacsim.checks import Problem, count, falling, finite, not_negative, one_of, positive
-from kacsim.kac import work
+from kacsim.kac import own_tables, work
 from kacsim.kac.constants import LEVELS, MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
 from kacsim.kac.contraction import blocks_per_draw
 from kacsim.mckean import work as trees
@@ -73,7 +73,18 @@ VARIANTS = (
 )
 ALGORITHMS = tuple(algorithm.name for algorithm in VARIANTS)
 TITLES = {algorithm.name: algorithm.title for algorithm in VARIANTS}
+# Those with kernels for laws of one's own (`kacsim.kac.own_law`).
+OWN_LAWS = (
+    "nanbu_sequential",
+    "nanbu_synchronous",
+    "nanbu_babovsky",
+    "bird",
+    "poisson",
+    "poisson_printed",
+)
 STEPPED = tuple(algorithm.name for algorithm in VARIANTS if STEP in algorithm.parameters)
+LAWS = ("initial", "scattering")
+HOW_TO_DRAW = ("engine", "keep_above", *LAWS)  # no parameters of an exact moment
 
 
 def number_of_particles(name, value):
@@ -82,8 +93,26 @@ def number_of_particles(name, value):
         yield from count(name, value, least=2)
 
 
-def kac(*, algorithm, engine, n_particles, time, collision_rate, **_):
+def is_own(parameters):
+    """Tell whether a case has an initial law or a law of the angle that is not the paper's."""
+    return any(parameters.get(name) is not None for name in LAWS)
+
+
+def entry(parameters):
+    """Return the name of the kernel that draws a case."""
+    return f"own_{parameters['engine']}" if is_own(parameters) else parameters["engine"]
+
+
+def own_law_problems(algorithm, initial, scattering):
+    """Yield a problem if an algorithm draws by the paper's laws only."""
+    for name, value in zip(LAWS, (initial, scattering), strict=True):
+        if value is not None and algorithm not in OWN_LAWS:
+            yield Problem(name, value, f"needs one of {', '.join(OWN_LAWS)}")
+
+
+def kac(*, algorithm, engine, n_particles, time, collision_rate, initial, scattering, **_):
     """Yield the problems of a draw of v_1 at time t (Kac paper, section 4)."""
+    yield from own_law_problems(algorithm, initial, scattering)
     if n_particles == math.inf:
         if algorithm != "poisson" or engine != "ancestral":
             yield Problem("n_particles", n_particles, "infinity needs ancestral poisson")
@@ -130,7 +159,7 @@ def own_parameters(algorithm, given):
     ValueError
         Names a parameter that the algorithm does not have.
     """
-    common = tuple(one for one in KAC.parameters if one.name not in ("engine", "keep_above"))
+    common = tuple(one for one in KAC.parameters if one.name not in HOW_TO_DRAW)
     taken = dataclasses.replace(KAC, parameters=common, variant_place=len(common))
     complete = taken.complete({"algorithm": algorithm, **given})
     shared = {one.name for one in common}
@@ -187,6 +216,18 @@ TOLERANCE = Parameter("tolerance", "eps", "epsilon of the perfect sampler", posi
 ENERGY = Parameter(
     "energy", "e", "energy of all particles, 3 N / 2 by default", positive, None, kind=real
 )
+
+
+def law(name, meaning, names, angles=False):
+    """Return a parameter that is a law: one of some names, or the file of a density."""
+    words = ", ".join(names[1:])
+    return Parameter(
+        name, f"{name}-", f"{meaning}: {names[0]} (default), {words}, or a file: x,density",
+        functools.partial(own_tables.problems, names=names, angles=angles), None,
+        settle=functools.partial(own_tables.settled, names=names), token=own_tables.token,
+    )  # fmt: skip
+
+
 KAC = Sampler(
     "kac",
     "v_1 at a time, by one algorithm of the Kac paper",
@@ -209,14 +250,19 @@ KAC = Sampler(
             "keep_above", "above", "keep the first values of v_1 above this", finite, None,
             kind=real,
         ),
+        law("initial", "law of the velocities at time 0", own_tables.INITIALS),
+        law("scattering", "law of the scattering angle", own_tables.SCATTERINGS, angles=True),
     ),
     variants=VARIANTS,
     variant_place=4,
     engines=ENGINES,
-    entries=lambda parameters: ("arguments", parameters["engine"]),
+    entries=lambda parameters: ("arguments", entry(parameters)),
     check=kac,
     work=work.of_velocities,
-    tiny=({"n_particles": 4, "time": 1.0},),
+    tiny=(
+        {"n_particles": 4, "time": 1.0},
+        {"n_particles": 4, "time": 1.0, "initial": "two_peaks", "scattering": "forward"},
+    ),
 )  # fmt: skip
 EQUILIBRIUM = Sampler(
     "kac_equilibrium",

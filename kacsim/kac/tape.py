@@ -42,9 +42,9 @@ def new_tape(capacity):
     return Tape(*slots, np.empty(capacity, np.int64), np.empty(MOST_DRAWS, np.uint64))
 
 
-def new_state(law, capacity):
+def new_state(law, capacity, tables=()):
     """Return the state of a law for a tape: as many slots as collisions, and one of each draw."""
-    return law.new_state(capacity, capacity + MOST_DRAWS)
+    return law.new_state(capacity, capacity + MOST_DRAWS, *tables)
 
 
 def in_pairs(law):
@@ -84,7 +84,8 @@ def ancestral_draws(law, prepare, history, replay_of=in_pairs):
 
     Returns
     -------
-    function (velocities, own, *arguments, stream) -> int, collisions simulated, as a forward kernel
+    function (velocities, own, *arguments, stream, tables=()) -> int, collisions simulated, as a
+    forward kernel; tables : what the law of collisions draws from, if it has tables
     """
     fill, read, replay = law.fill, law.read, replay_of(law)
 
@@ -120,10 +121,10 @@ def ancestral_draws(law, prepare, history, replay_of=in_pairs):
         return draw, simulated
 
     @functools.wraps(attempt)
-    def ancestral(velocities, own, *arguments):
+    def ancestral(velocities, own, *arguments, tables=()):
         done, simulated, capacity = 0, 0, LEAST
         while done < len(velocities):
-            tape, state = new_tape(capacity), new_state(law, capacity)
+            tape, state = new_tape(capacity), new_state(law, capacity, tables)
             rest = velocities[done:], own[done:]
             more, collisions = attempt(*rest, arguments[:-1], arguments[-1], tape, state)
             done += more

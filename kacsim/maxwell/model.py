@@ -24,8 +24,8 @@ from kacsim.variates import (
 
 
 @allocating
-def ensemble(n_particles):
-    """Return an array for the velocities of particles."""
+def ensemble(n_particles, tables):
+    """Return an array for the velocities of particles; this law has no tables."""
     return np.empty((n_particles, 3))
 
 

@@ -28,8 +28,10 @@ class Drawn(NamedTuple):
 
     Attributes
     ----------
-    start, width : float64[k], each piece's left end and width; without pieces the value is 0
-    tilt : float64[k], the density on a piece rises from 1 - tilt to 1 + tilt times its mean
+    start, width : float64[k], where each piece begins and how far it reaches, to the left if
+        negative; without pieces the value is 0
+    tilt : float64[k], 0 to 1, the density rises from its start from 1 - tilt to 1 + tilt times its
+        mean
     cut : float64[k], the chance that piece i, chosen among k alike, is taken; else other[i] is
     other : int64[k]
     spread : float, standard deviation of a normal variate that is added
@@ -55,7 +57,7 @@ def in_piece(law, stream):
     # Not 0, at which a density that begins with 0 would give 0 / 0.
     u = 1.0 - uniform(stream)
     left = 1.0 - law.tilt[k]
-    root = math.sqrt(max(0.0, left * left + 4.0 * law.tilt[k] * u))
+    root = math.sqrt(left * left + 4.0 * law.tilt[k] * u)
     return law.start[k] + law.width[k] * (2.0 * u / (left + root))
 
 

@@ -37,15 +37,10 @@ def parts_of(value):
     return (path, digest) if mark and is_digest else (value, "")
 
 
-def digest_of(path):
-    """Return the first digits of the SHA-256 of a file."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:DIGITS]
-
-
-def settled(value, names):
+def settled(value, names, angles=False):
     """Return what a case keeps of a value: None for the paper's law, ``path@digest`` for a file.
 
-    What cannot be read is returned as it is, for the check to refuse.
+    What cannot be used is returned as it is, for the check to refuse.
     """
     value = str(value) if isinstance(value, Path) else value
     if isinstance(value, str) and value == names[0]:
@@ -53,8 +48,8 @@ def settled(value, names):
     if not is_file(value) or parts_of(value)[1]:
         return value
     try:
-        return f"{value}@{digest_of(value)}"
-    except OSError:
+        return f"{value}@{_content(value, angles)[1]}"
+    except TableError:
         return value
 
 
@@ -95,15 +90,21 @@ def read(value, angles=False):
         Names the line, its value and what is allowed.
     """
     path, digest = parts_of(value)
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-        now = digest_of(path)
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "is no text"
-        raise TableError(f"cannot be read: {reason}") from error
+    points, now = _content(path, angles)
     if digest and digest != now:
         raise TableError(f"has changed since: the digest of its content is {now}")
-    rows = [(k, row) for k, row in enumerate(csv.reader(text.splitlines()), 1) if row]
+    return points
+
+
+def _content(path, angles):
+    """Return (points, digest) of a file."""
+    try:
+        content = Path(path).read_bytes()
+        text = content.decode("utf-8-sig")
+        rows = [(k, row) for k, row in enumerate(csv.reader(text.splitlines()), 1) if row]
+    except (OSError, ValueError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or "is no text"
+        raise TableError(f"cannot be read: {reason}") from error
     if not rows or [word.strip() for word in rows[0][1]] != COLUMNS:
         raise TableError(f"line 1: must name the columns {','.join(COLUMNS)}")
     points = []
@@ -112,9 +113,9 @@ def read(value, angles=False):
         problem = _place_problem(points, angles)
         if problem:
             raise TableError(f"line {line}: x = {points[-1][0]!r}: {problem}")
-    if not sum(mass for *_, mass in pieces_of(points)) > 0.0:
+    if not pieces_of(points):
         raise TableError("must have two lines or more, between which the density is not 0")
-    return points
+    return points, hashlib.sha256(content).hexdigest()[:DIGITS]
 
 
 def _point(line, row):
@@ -147,14 +148,16 @@ def pieces_of(points):
 
     Returns
     -------
-    list of (start, width, tilt, mass): the density rises from 1 - tilt to 1 + tilt times its mean
+    list of (start, width, tilt, mass), as of `kacsim.kac.own_law.Drawn`: a piece begins where the
+    density is lower, which no rounding then makes negative
     """
     found = []
     for k in range(1, len(points)):
         (left, low), (right, high) = points[k - 1], points[k]
         mass = 0.5 * (low + high) * (right - left)
         if mass > 0.0:
-            found.append((left, right - left, (high - low) / (high + low), mass))
+            start, width = (left, right - left) if high >= low else (right, left - right)
+            found.append((start, width, abs(high - low) / (high + low), mass))
     return found
 
 
@@ -187,7 +190,7 @@ def pieces_of_table(name, table, angles=False):
 
 def even(pieces):
     """Return the pieces of the even part of a density: half of each piece lies mirrored."""
-    mirrored = [(-(start + width), width, -tilt, mass) for start, width, tilt, mass in pieces]
+    mirrored = [(-start, -width, tilt, mass) for start, width, tilt, mass in pieces]
     return [*pieces, *mirrored]
 
 

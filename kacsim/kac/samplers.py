@@ -221,10 +221,11 @@ ENERGY = Parameter(
 def law(name, meaning, names, angles=False):
     """Return a parameter that is a law: one of some names, or the file of a density."""
     words = ", ".join(names[1:])
+    settle = functools.partial(own_tables.settled, names=names, angles=angles)
     return Parameter(
         name, f"{name}-", f"{meaning}: {names[0]} (default), {words}, or a file: x,density",
         functools.partial(own_tables.problems, names=names, angles=angles), None,
-        settle=functools.partial(own_tables.settled, names=names), token=own_tables.token,
+        settle=settle, token=own_tables.token,
     )  # fmt: skip
 
 

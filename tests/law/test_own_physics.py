@@ -94,7 +94,8 @@ def exact(order, algorithm, initial, scattering, rate=RATE):
 def test_moments(algorithm, engine, seed):
     """Null: E v_1 .. E v_1**4 of this N and step, f0 of a file and the angle of a table.
 
-    Statistics: z of the means; 1e6 draws see half a percent of E v, and of E v**4. Mutants: the mirrored f0, and other angles.
+    Statistics: z of the means; 1e6 draws see half a percent of E v and of E v**4. Mutants: the
+    mirrored f0, and other angles.
     """
     v = velocities(algorithm, engine, "file", "table", 1_000_000, seed)
     found = [exact(k, algorithm, "file", "table") for k in (1, 2, 3, 4)]

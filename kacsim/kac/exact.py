@@ -1,4 +1,8 @@
-"""Exact laws of the Kac paper: eqs. (8) and (9), and the equilibrium of N particles."""
+"""Exact laws of the Kac paper: eqs. (8) and (9), and the equilibrium of N particles.
+
+The laws at a time t are those of the paper's f0 and of uniform angles: for other ones (`kac.draw`)
+`kacsim.kac.reference` solves the equation, and the equilibrium is the same for any angles.
+"""
 
 import math
 
@@ -20,6 +24,8 @@ def shape(time, collision_rate=RATE):
 def density(v, time, collision_rate=RATE):
     """Return f(v, t), the solution of the Kac equation (Kac paper, eqs. 8 and 9).
 
+    It is for the paper's f0 and uniform angles.
+
     Parameters
     ----------
     v : float or array of velocities
@@ -33,7 +39,10 @@ def density(v, time, collision_rate=RATE):
 
 
 def survival(v, time, collision_rate=RATE):
-    """Return P(V > v) under eq. (8), without cancellation in the upper tail."""
+    """Return P(V > v) under eq. (8), without cancellation in the upper tail.
+
+    It is for the paper's f0 and uniform angles; arguments as `density`.
+    """
     c = shape(time, collision_rate)
     w = math.sqrt(c) * np.asarray(v, dtype=float)
     odd = (3.0 * c - 1.0) / (2.0 * math.sqrt(math.pi)) * w * np.exp(-(w**2))
@@ -41,7 +50,7 @@ def survival(v, time, collision_rate=RATE):
 
 
 def cumulative(v, time, collision_rate=RATE):
-    """Return P(V <= v) under eq. (8); arguments as `density`."""
+    """Return P(V <= v) under eq. (8), for the paper's f0 and uniform angles; as `density`."""
     return survival(-np.asarray(v, dtype=float), time, collision_rate)
 
 

@@ -30,6 +30,8 @@ DIRECT = 200  # particles up to which Bird's matrix is raised to its power by mu
 def moment(order, time, n_particles=math.inf, *, algorithm="poisson", collision_rate=RATE):
     """Return E v_1**order at time t, exactly, from v**2 that follow Gamma(3/2, 1).
 
+    It is for the paper's f0, whose v**2 these are, and uniform angles.
+
     Parameters
     ----------
     order : even int from 2 to 12

@@ -27,6 +27,8 @@ def fourth_moment(
 ):
     """Return E v_1**4 at time t, exactly, for one algorithm at finite N and finite step.
 
+    It is for the paper's f0 and uniform angles.
+
     Parameters
     ----------
     time : float >= 0

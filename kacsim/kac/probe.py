@@ -34,6 +34,8 @@ def estimate_density(
 ):
     """Estimate f(v, t) of the Kac equation, by the Boltzmann paper's branching trees or others.
 
+    It is for the paper's f0 and uniform angles: `estimate_relaxation` takes any symmetric one.
+
     Parameters
     ----------
     v : float
@@ -89,6 +91,7 @@ def estimate_tail(
 ):
     """Estimate P(v_1(t) > v) of the Kac equation by McKean's trees (docs/ancestral_trees.md).
 
+    It is for the paper's f0 and uniform angles: `estimate_relaxation_tail` takes any symmetric one.
     Parameters, result and errors as `estimate_density`, with v >= 0 and without branching.
     """
     tree = {**choice.PLAIN, "max_nodes": max_nodes}

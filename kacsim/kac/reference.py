@@ -1,7 +1,7 @@
 """The Kac equation solved for any symmetric initial law: density and tail, no draw.
 
 As `kacsim.boltzmann.reference`, on a line: the velocity is the component itself, and a collision
-shares the squares as the squared cosine of a uniform angle.
+shares the squares as the squared cosine of a uniform angle, the only law of the angle here.
 """
 
 import numpy as np

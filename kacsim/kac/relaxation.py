@@ -7,7 +7,7 @@ from kacsim.mckean.constants import KAC
 
 
 def estimate_relaxation(v, time, *, initial, n_realizations, seed, collision_rate=RATE, cut=0.0):
-    """Estimate f(v, t) of the Kac equation that starts from any symmetric law.
+    """Estimate f(v, t) of the Kac equation that starts from any symmetric law, for uniform angles.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def estimate_relaxation(v, time, *, initial, n_realizations, seed, collision_rat
 def estimate_relaxation_tail(
     v, time, *, initial, n_realizations, seed, collision_rate=RATE, cut=0.0
 ):
-    """Estimate P(v_1(t) > v) of the Kac equation that starts from any symmetric law.
+    """Estimate P(v_1(t) > v) of the Kac equation from any symmetric law, for uniform angles.
 
     Parameters, result and errors as `estimate_relaxation`, with v >= 0.
     """

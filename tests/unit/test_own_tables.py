@@ -4,6 +4,7 @@ import dataclasses
 import itertools
 import json
 import math
+import re
 import shlex
 import shutil
 
@@ -209,3 +210,13 @@ def test_the_kind_of_costs_is_the_same_for_all_tables():
     case = make_case("kac", **CASE)
     assert case.kind == "kac-bird-ancestral"
     assert dataclasses.replace(case).kind == case.kind
+
+
+def test_the_example_of_the_documents_runs(monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    page = (ROOT / "docs/own_physics.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(.*?)```", page, re.S)
+    exec(code, {})
+    square, fourth = map(float, capsys.readouterr().out.split())
+    assert square == pytest.approx(1.5, abs=0.05)
+    assert 3.8 < fourth < 6.75

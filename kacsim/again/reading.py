@@ -100,6 +100,10 @@ def case_of(settings, path):
     name = given.pop("sampler", None)
     if name not in registry():
         raise StoreError(f"{path}: sampler = {name!r} in its recipe: is not one of this version")
+    for key, value in given.items():
+        if isinstance(value, str) and (Path(value).is_absolute() or ".." in Path(value).parts):
+            what = "must be a name, or a file below this folder"
+            raise StoreError(f"{path}: {key} = {value!r} in its recipe: {what}")
     try:
         size = {key: given.pop(key) for key in SIZE}
         shard = tuple(given.pop("shard", (1, 1)))

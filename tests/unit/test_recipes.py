@@ -127,11 +127,18 @@ def test_a_recipe_of_unknown_words_is_not_followed(changes, sentence, tmp_path):
 
 
 SAMPLE = {"sampler": "kac", "n_draws": 40, "n_replicates": 2, "seed": 1, "algorithm": "bird"}
+OUTSIDE = "must be a name, or a file below this folder"
 CASES = [
     ({}, "n_particles"),
     ({"n_particles": 1, "time": 1.0}, "n_particles = 1: must be"),
     ({"n_particles": 5, "time": 1.0, "folder": "/"}, "folder"),
     ({"n_particles": 5, "time": 1.0, "shard": 3}, "its recipe: "),
+    ({"n_particles": 5, "time": 1.0, "initial": "/etc/passwd"}, "must be a name, or a file below"),
+    (
+        {"n_particles": 5, "time": 1.0, "initial": "a/../../b.csv"},
+        "must be a name, or a file below",
+    ),
+    ({"n_particles": 5, "time": 1.0, "initial": "b.csv@0123456789abcdef"}, "initial = 'b.csv"),
 ]
 
 

@@ -91,7 +91,8 @@ class Plan:
     """
 
     def __init__(self, config, files=("config",), given=()):
-        self.files = [os.path.relpath(file) if os.path.isabs(file) else str(file) for file in files]
+        near = (os.path.relpath(file) if os.path.isabs(file) else str(file) for file in files)
+        self.files = [*near] or ["config"]  # as a module of another workflow it comes from no file
         self.given = set(given)
         from kacsim.schema import complete  # jsonschema is needed once, not by every job
 

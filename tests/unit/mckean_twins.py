@@ -234,4 +234,4 @@ def exact(law, quantity, v, time):
         transform = cmath.exp(law.ell * z * z + square * (1.0 - left)) * (1.0 + square * left)
         return (transform * weight_at(quantity, v, z)).real
 
-    return integrate.quad(real, 0.0, 30.0, epsabs=0.0, epsrel=1e-12, limit=400)[0] / math.pi
+    return integrate.quad(real, 0.0, 30.0, epsabs=0.0, epsrel=1e-10, limit=400)[0] / math.pi

@@ -68,7 +68,8 @@ def fit(cases, items_of, show=print, folder="."):
         found[one.kind].append(one)
     for case in tiny_cases():
         if case.kind not in found:
-            found[case.kind].append(dataclasses.replace(case, n_draws=100_000, n_replicates=100))
+            small = dataclasses.replace(case, n_draws=100_000, n_replicates=100)
+            found[case.kind] += with_laws_of(case, found) or [small]
     # A process of its own for each kind, as jobs have.
     with multiprocessing.get_context().Pool(1, maxtasksperchild=1) as one:
         rows = {}
@@ -91,6 +92,14 @@ def fit(cases, items_of, show=print, folder="."):
 def _write(path, text):
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
+
+
+def with_laws_of(tiny, found):
+    """Return the cases of the kind that a tiny one has but for its laws, with its laws."""
+    laws = {one.name: tiny.parameters[one.name] for one in tiny.sampler.parameters if one.settle}
+    plain = dataclasses.replace(tiny, parameters=tiny.parameters | dict.fromkeys(laws))
+    same = found.get(plain.kind, ()) if plain.kind != tiny.kind else ()
+    return [dataclasses.replace(one, parameters=one.parameters | laws) for one in same]
 
 
 def on_engines(cases):

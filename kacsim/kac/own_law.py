@@ -94,22 +94,26 @@ def start(v, i, stream):
     v.velocity[i] = velocity_at_start(v.initial, stream)
 
 
-def velocities_of(values):
-    """Return the array of an ensemble; of an array itself."""
-    return values.velocity if isinstance(values, Ensemble) else values
+def put(values, k, velocity):
+    """Set a velocity, at place k of an array or of an ensemble."""
+    (values.velocity if isinstance(values, Ensemble) else values)[k] = velocity
 
 
-@overload(velocities_of, inline="always")
-def _(values):
-    if isinstance(values, types.BaseTuple):
-        return lambda values: values.velocity
-    return lambda values: values
+@overload(put, inline="always")
+def _(values, k, velocity):
+    def into_ensemble(values, k, velocity):
+        values.velocity[k] = velocity
+
+    def into_array(values, k, velocity):
+        values[k] = velocity
+
+    return into_ensemble if isinstance(values, types.BaseTuple) else into_array
 
 
 @inlined
 def copy(values, k, v, i):
     """Set a velocity, at place k of an array or of an ensemble, to v_i."""
-    velocities_of(values)[k] = v.velocity[i]
+    put(values, k, v.velocity[i])
 
 
 @inlined

@@ -110,11 +110,9 @@ def own_law_problems(algorithm, initial, scattering):
             yield Problem(name, value, f"needs one of {', '.join(OWN_LAWS)}")
 
 
-def kac(
-    *, algorithm, engine, n_particles, time, collision_rate, initial=None, scattering=None, **_
-):
+def kac(*, algorithm, engine, n_particles, time, collision_rate, **laws):
     """Yield the problems of a draw of v_1 at time t (Kac paper, section 4)."""
-    yield from own_law_problems(algorithm, initial, scattering)
+    yield from own_law_problems(algorithm, *map(laws.get, LAWS))
     if n_particles == math.inf:
         if algorithm != "poisson" or engine != "ancestral":
             yield Problem("n_particles", n_particles, "infinity needs ancestral poisson")

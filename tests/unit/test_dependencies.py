@@ -18,8 +18,14 @@ from kacsim.jobs import stages
 from kacsim.kernels import cache, names, sources
 
 CASES = list(tiny_cases())
-RUN = {("kacsim.jobs.sampling", "run"), ("kacsim.kernels.lookup", "named")}  # calls the roots
-# What samplers ask of code that lies outside: what a recipe says, and looking up by name.
+# What calls the roots, and what a case's id is made by, which its streams have.
+RUN = {
+    ("kacsim.jobs.sampling", "run"),
+    ("kacsim.kac.own_tables", "token"),
+    ("kacsim.kernels.lookup", "named"),
+}
+# What samplers ask of code that lies outside: what a recipe says, which kernel of the roots it is,
+# and looking up by name.
 ASKED = {
     "kacsim.cases.Case.id",
     "kacsim.cases.Case.kernel_module",
@@ -27,6 +33,8 @@ ASKED = {
     "kacsim.cases.Case.roots",
     "kacsim.cases.Case.sampler",
     "kacsim.checks.raise_problems",
+    "kacsim.kac.samplers.entry",
+    "kacsim.kac.samplers.is_own",
     "kacsim.kernels.lookup.named",
 }
 # The same of joining shards: where they lie, and whether they are the wanted ones.

@@ -14,7 +14,7 @@ import tempfile
 import traceback
 from pathlib import Path
 
-import paper
+import printer
 import tracer
 
 DRAWS = 20  # enough for what draws of a tree rarely do
@@ -130,7 +130,7 @@ def pages(trace, results):
 
     results = Path(results)
     with tempfile.TemporaryDirectory() as folder:
-        browser, html = paper.browser(Path(folder) / "bin"), f"{folder}/report.html"
+        browser, html = printer.browser(Path(folder) / "bin"), f"{folder}/report.html"
         shown = items.NAMES
         with trace.running("page"):
             page.write(shown, results / "datasets", results / "figures", html)

@@ -2,8 +2,8 @@
 
 import os
 
-import paper
 import pikepdf
+import printer
 import pytest
 
 from kacsim import carriers, cli, files, plan, recipes
@@ -17,7 +17,7 @@ def fake(tmp_path, monkeypatch):
     """Return a function that makes a browser of one shell line the one to be found."""
 
     def make(*lines):
-        path = paper.browser(tmp_path / "bin", *lines)
+        path = printer.browser(tmp_path / "bin", *lines)
         monkeypatch.setenv(browser.VARIABLE, str(path))
         (tmp_path / "report.html").write_text(PAGE)
         return tmp_path / "report.html", tmp_path / "out" / "report.pdf"

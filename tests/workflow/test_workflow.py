@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 
-import paper
+import printer
 import pytest
 import yaml
 from projects import new_project
@@ -46,7 +46,7 @@ def test_without_a_browser_the_run_says_once_that_nothing_is_printed(finished):
 
 
 def test_with_a_browser_the_report_is_printed_once(project):
-    project.chromium = str(paper.browser(project.folder / "bin"))
+    project.chromium = str(printer.browser(project.folder / "bin"))
     # The report is written again too, since its texts lie elsewhere in a copy.
     jobs = {"report": 1, "print_report": 1, "run_times": 1, "all": 1}
     assert project.planned(*SMOKE) == jobs

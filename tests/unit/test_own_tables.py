@@ -189,6 +189,16 @@ def test_a_piece_inverts_its_cumulative_function(tilt):
         assert (1.0 - tilt) * t + tilt * t**2 == pytest.approx(u, abs=1e-14)
 
 
+def test_a_collision_foreseen_changes_nothing_before_it_is_settled():
+    law = own_drawn.initial_law("uniform")
+    state = own_law.new_state(1, 2, law, law)
+    state.velocity[:], state.cos[0], state.sin[0] = (1.0, 2.0), 0.6, 0.8
+    own_law.foresee(state, 0, 1, 0)
+    assert state.velocity.tolist() == [1.0, 2.0]
+    own_law.settle(state, 0, 0)
+    assert state.velocity == pytest.approx([2.2, 2.0])
+
+
 def test_every_name_has_a_law_of_mean_energy():
     """E v**2 = 3/2 of every initial law, by its pieces and what is added."""
     for name in own_tables.INITIALS[1:]:

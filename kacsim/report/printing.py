@@ -78,7 +78,9 @@ def settle(pdf, output, recipe):
                 if key in file.docinfo:
                     del file.docinfo[key]
             file.docinfo[f"/{carriers.FIELD['pdf']}"] = recipe
-            file.save(output, deterministic_id=True)
+            # Without streams of objects, as the browser wrote it: pages can be read as text.
+            plain = pikepdf.ObjectStreamMode.disable
+            file.save(output, deterministic_id=True, object_stream_mode=plain)
     except pikepdf.PdfError as error:
         raise StoreError(f"{pdf}: is not a PDF file: {error}") from error
 

@@ -46,7 +46,9 @@ def planned(output):
     for name in re.findall(r"(results/\w+/\S+)", "\n".join(re.findall(r"--output (.*)", output))):
         path = Path(name)
         stage = FAMILY.get(path.parent.name, "report")
-        found[stage].add(path.name if stage == "report" else path.name.rpartition(".")[0])
+        # Cases have points in their names, files of figures after their items'.
+        stem = path.name.partition(".")[0] if stage == "draw" else path.name.rpartition(".")[0]
+        found[stage].add(path.name if stage == "report" else stem)
     return found
 
 
@@ -91,7 +93,7 @@ SAMPLES = [
     ("kacsim/kac/constants.py", "RATE = math.sqrt(math.pi) / 2", "RATE = 1.0",
      ["kac-bird", "kac-poisson", "kac-probe"], ["kac-equilibrium", "kac-corners", "bkw", "trap"]),
     ("kacsim/kac/constants.py", "MEAN_ENERGY = 1.5", "MEAN_ENERGY = 1.0",
-     ["kac-equilibrium", "kac-corners"], ["kac-bird", "bkw"]),
+     ["kac-equilibrium", "kac-corners"], ["kac-probe", "bkw"]),
     ("kacsim/boltzmann/samplers.py", "are oversampled\", not_negative, 0.0", "are oversampled\", not_negative, 0.1",
      ["bkw-c", "bkw-fraction-c", "kac-probe"], ["trap", "kac-bird"]),
     ("kacsim/boltzmann/constants.py", "COUPLING = 3.0", "COUPLING = 2.0", ["trap"], ["bkw", "kac"]),

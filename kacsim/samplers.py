@@ -116,6 +116,7 @@ class Sampler:
     tiny : tuple of dict, the smallest parameters, several where kernels differ
     kernels : str, module of the family that holds the kernels; "" if each variant has its own
     entries : callable(parameters) -> names of that module that the sampler looks up
+    beside : callable(parameters) -> (module of the family, name) of what else it looks up
     check : callable(**parameters) that yields the problems of values that are each right
     work : callable(parameters) -> dict of what one draw takes, such as its collisions or nodes;
         ``call`` is how often a replicate starts to draw. `kacsim.costs` knows how long each takes
@@ -135,6 +136,7 @@ class Sampler:
     tiny: tuple
     kernels: str = ""
     entries: Callable = lambda parameters: ()
+    beside: Callable = lambda parameters: ()
     check: Callable | None = None
     work: Callable = lambda parameters: {"draw": 1.0}
     replicate_megabytes: Callable = lambda parameters: REPLICATE_MEGABYTES
@@ -205,7 +207,9 @@ class Sampler:
         streaming = self.streaming or f"sample_{self.name}"
         module = self.kernel_module(parameters)
         looked_up = ((module, entry) for entry in self.entries(parameters))
-        return ((f"kacsim.{self.family}.sampling", streaming), *looked_up)
+        family = f"kacsim.{self.family}"
+        others = ((f"{family}.{one}", name) for one, name in self.beside(parameters))
+        return ((f"{family}.sampling", streaming), *looked_up, *others)
 
 
 @functools.cache

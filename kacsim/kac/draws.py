@@ -7,7 +7,7 @@ import numpy as np
 
 from kacsim import checks
 from kacsim.cases import make_case
-from kacsim.kac import own_drawn, perfect, perfect_blocks, samplers
+from kacsim.kac import perfect, perfect_blocks, samplers
 from kacsim.kac.constants import RATE
 from kacsim.kernels.lookup import named
 from kacsim.streams import new_stream
@@ -26,8 +26,10 @@ def kernel_of(parameters):
         for part in ("arguments", samplers.entry(parameters))
     )
     if samplers.is_own(parameters):
-        tables = own_drawn.tables(*(parameters.get(name) for name in samplers.LAWS))
-        kernel = functools.partial(kernel, tables=tables)
+        module, part = samplers.TABLES
+        make = named("kacsim.kac", module, part)
+        laws = (parameters.get(name) for name in samplers.LAWS)
+        kernel = functools.partial(kernel, tables=make(*laws))
     return kernel, arguments(**own)
 
 

@@ -10,6 +10,7 @@ from kacsim.checks import Problem, count, falling, finite, not_negative, one_of,
 from kacsim.kac import own_tables, work
 from kacsim.kac.constants import LEVELS, MEAN_ENERGY, RATE, SINGLE, WALKS, n_steps
 from kacsim.kac.contraction import blocks_per_draw
+from kacsim.kernels import names
 from kacsim.mckean import work as trees
 from kacsim.mckean.constants import KAC as KAC_LAW
 from kacsim.mckean.parameters import MCKEAN, far, mckean, tiny_of
@@ -73,17 +74,9 @@ VARIANTS = (
 )
 ALGORITHMS = tuple(algorithm.name for algorithm in VARIANTS)
 TITLES = {algorithm.name: algorithm.title for algorithm in VARIANTS}
-# Those with kernels for laws of one's own (`kacsim.kac.own_law`).
-OWN_LAWS = (
-    "nanbu_sequential",
-    "nanbu_synchronous",
-    "nanbu_babovsky",
-    "bird",
-    "poisson",
-    "poisson_printed",
-)
 STEPPED = tuple(algorithm.name for algorithm in VARIANTS if STEP in algorithm.parameters)
 LAWS = ("initial", "scattering")
+TABLES = "own_drawn", "tables"  # what makes tables of them
 HOW_TO_DRAW = ("engine", "keep_above", *LAWS)  # no parameters of an exact moment
 
 
@@ -103,11 +96,17 @@ def entry(parameters):
     return f"own_{parameters['engine']}" if is_own(parameters) else parameters["engine"]
 
 
+def takes_own_laws(algorithm):
+    """Tell whether the module of an algorithm has kernels for `kacsim.kac.own_law`."""
+    return all(names.binds(f"kacsim.kac.{algorithm}", f"own_{engine}") for engine in ENGINES)
+
+
 def own_law_problems(algorithm, initial, scattering):
     """Yield a problem if an algorithm draws by the paper's laws only."""
     for name, value in zip(LAWS, (initial, scattering), strict=True):
-        if value is not None and algorithm not in OWN_LAWS:
-            yield Problem(name, value, f"needs one of {', '.join(OWN_LAWS)}")
+        if value is not None and not takes_own_laws(algorithm):
+            able = ", ".join(filter(takes_own_laws, ALGORITHMS))
+            yield Problem(name, value, f"needs one of {able}")
 
 
 def kac(*, algorithm, engine, n_particles, time, collision_rate, **laws):
@@ -258,6 +257,7 @@ KAC = Sampler(
     variant_place=4,
     engines=ENGINES,
     entries=lambda parameters: ("arguments", entry(parameters)),
+    beside=lambda parameters: (TABLES,) if is_own(parameters) else (),
     check=kac,
     work=work.of_velocities,
     tiny=(

@@ -17,7 +17,7 @@ from scipy import interpolate, special
 
 from kacsim import kac, techniques
 from kacsim.kac import reference
-from kacsim.kac.samplers import ENGINES, OWN_LAWS
+from kacsim.kac.samplers import ALGORITHMS, ENGINES
 from kacsim.kernels.provenance import ROOT
 
 TIME, RATE, N = 1.7, 0.9, 7
@@ -90,7 +90,7 @@ def exact(order, algorithm, initial, scattering, rate=RATE):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("algorithm", OWN_LAWS)
+@pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_moments(algorithm, engine, seed):
     """Null: E v_1 .. E v_1**4 of this N and step, f0 of a file and the angle of a table.
 
@@ -210,7 +210,7 @@ def test_eq_8_is_the_solution_of_the_equation():
 def test_moments_are_those_of_the_package_for_the_paper():
     """No draws: the linear system of this test against the exact fourth moments of the package."""
     paper = (1.0, 0.0, 1.5, 0.0, 3.75)
-    for algorithm in OWN_LAWS:
+    for algorithm in ALGORITHMS:
         known = process(algorithm) | {"n_particles": 4}
         wanted = kac.fourth_moment(
             known.pop("time"), known.pop("n_particles"), algorithm=algorithm, **known

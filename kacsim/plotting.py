@@ -7,9 +7,9 @@ import numpy as np
 from matplotlib import patheffects, ticker
 from matplotlib.figure import Figure
 
-from kacsim.carriers import FIELD
 from kacsim.files import replace_file
 from kacsim.kernels.lookup import lazy
+from kacsim.recipes.carriers import FIELD
 
 exact = lazy("kacsim.kac.exact")
 

@@ -111,13 +111,14 @@ class Entry(dict):
 
 def writers(trace, name, results):
     """Write the figure of an item and the numbers behind it."""
-    from kacsim import items, plotting, recipes, store
+    from kacsim import items, plotting, store
+    from kacsim.recipes import lines
     from kacsim.report import csv_table
 
     dataset = store.read(Path(results) / "datasets" / f"{name}.nc")
     figure = items.load(name).draw(dataset)
     with tempfile.TemporaryDirectory() as folder, trace.running("draw"):
-        recipe = recipes.of_figure(dataset, "")
+        recipe = lines.of_figure(dataset, "")
         for suffix in ("svg", "png", "pdf"):
             plotting.save(figure, f"{folder}/figure.{suffix}", recipe)
         csv_table.write(dataset, f"{folder}/figure.csv", recipe)

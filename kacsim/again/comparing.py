@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from kacsim import carriers, store
+from kacsim import store
+from kacsim.recipes import carriers
 from kacsim.report.page import without_files
 
 PROVENANCE = ("source", "code", "checksum")

@@ -5,11 +5,12 @@ import json
 from pathlib import Path
 from typing import NamedTuple
 
-from kacsim import carriers, items, plan, recipes, store
+from kacsim import items, plan, store
 from kacsim.cases import make_case
 from kacsim.files import StoreError
 from kacsim.jobs import stages
 from kacsim.kernels import provenance, sources
+from kacsim.recipes import carriers, lines
 from kacsim.samplers import registry
 
 ADDED = ("costs", "items")  # what the plan adds to the settings of an item
@@ -23,7 +24,7 @@ class Order(NamedTuple):
     ----------
     path : Path of the file
     text : str, its recipe as it is carried; empty where the file says it elsewhere
-    recipe : kacsim.recipes.Recipe
+    recipe : kacsim.recipes.lines.Recipe
     case : kacsim.cases.Case of a file of samples, else None
     plan : kacsim.plan.Plan of any other file, else None
     """
@@ -57,7 +58,7 @@ def read(path):
         text, recipe = "", _of_dataset(path)
     else:
         text = carriers.read(path)
-        recipe = recipes.parsed(text, path)
+        recipe = lines.parsed(text, path)
     if recipe.item == "" and "sampler" in recipe.settings:
         return Order(path, text, recipe, case_of(recipe.settings, path), None)
     if recipe.item == "":
@@ -72,10 +73,10 @@ def read(path):
 def _of_dataset(path):
     about = store.read(path).attrs
     if "item" in about:
-        return recipes.Recipe(
+        return lines.Recipe(
             about["item"], about["settings"], {"reduce": about["code"]}, about["source"]
         )
-    return recipes.Recipe("", about["settings"], {"sample": about["code"]}, about["source"])
+    return lines.Recipe("", about["settings"], {"sample": about["code"]}, about["source"])
 
 
 def _of_page(path):
@@ -84,7 +85,7 @@ def _of_page(path):
     except (OSError, UnicodeDecodeError) as error:
         raise StoreError(f"{path}: cannot be read: {error}") from error
     settings, source = carriers.of_page(text, path)
-    recipe = recipes.Recipe("", settings, {}, source)
+    recipe = lines.Recipe("", settings, {}, source)
     return Order(path, "", recipe, None, plan_of(settings, path))
 
 
@@ -158,7 +159,7 @@ def differences(order):
         stage for stage, code in order.recipe.code.items() if _code(order, stage) != code
     ]:
         found.append(f"sources: other code here to {' and '.join(changed)}")
-    both = recipes.words_of(provenance.source()), recipes.words_of(order.recipe.source)
+    both = lines.words_of(provenance.source()), lines.words_of(order.recipe.source)
     other = [
         f"{ours} here, {theirs} there"
         for ours, theirs in itertools.zip_longest(*both, fillvalue="nothing")
@@ -166,7 +167,7 @@ def differences(order):
     ]
     if other:
         found.append(f"versions: {'; '.join(other)}")
-    if recipes.unclean(order.recipe.source):
+    if lines.unclean(order.recipe.source):
         found.append("sources: made from files with changes that no commit holds")
     return found
 

@@ -92,9 +92,9 @@ def write_sample(variables, path, case):
     if str(path).endswith(".csv"):
         import xarray as xr
 
-        from kacsim import recipes
+        from kacsim.recipes import lines
         from kacsim.report import csv_table
 
-        csv_table.write(xr.Dataset(variables), path, recipes.of_case(case))
+        csv_table.write(xr.Dataset(variables), path, lines.of_case(case))
         return
     store.write_sample(variables, path, case)

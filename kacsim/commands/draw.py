@@ -18,12 +18,13 @@ def add(parser):
 def run(arguments):
     """Draw the figure of an item, and write the numbers behind it."""
     module = _shared.known_item(arguments.item)
-    from kacsim import carriers, files, plotting, recipes, store
+    from kacsim import files, plotting, store
     from kacsim.jobs import stages
+    from kacsim.recipes import carriers, lines
     from kacsim.report import csv_table
 
     dataset = store.read_dataset(arguments.dataset, arguments.item)
-    recipe = recipes.of_figure(dataset, stages.code(stages.draw_roots(arguments.item)))
+    recipe = lines.of_figure(dataset, stages.code(stages.draw_roots(arguments.item)))
     figure = module.draw(dataset)
     sums = [path for path in arguments.output if path.endswith(".sha256")]
     drawn = [path for path in arguments.output if path not in sums]

@@ -7,7 +7,7 @@ from kacsim.kernels import sources
 
 WRITERS = (
     ("kacsim.plotting", "save"),
-    ("kacsim.recipes", "of_figure"),
+    ("kacsim.recipes.lines", "of_figure"),
     ("kacsim.report.csv_table", "write"),
 )
 

@@ -10,8 +10,8 @@ import itertools
 import json
 from pathlib import Path
 
-from kacsim import carriers
 from kacsim.files import replace_file
+from kacsim.recipes import carriers
 
 BIN, EDGE = "bin", "edge"  # bins have no coordinate but edges, one more than bins
 

@@ -6,8 +6,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from kacsim import carriers, recipes
 from kacsim.files import StoreError, replace_file
+from kacsim.recipes import carriers, lines
 from kacsim.report import browser
 from kacsim.report.page import read_text, without_files
 
@@ -45,7 +45,7 @@ def write(report, output, chromium=None):
         raise StoreError(f"{output}: not printed: {browser.NONE}")
     output = Path(output).absolute()
     html = without_files(read_text(Path(report)))
-    recipe = recipes.of_report(*carriers.of_page(html, report))
+    recipe = lines.of_report(*carriers.of_page(html, report))
     replace_file(output, lambda name: _print(html, name, chromium, recipe))
 
 

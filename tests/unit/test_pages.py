@@ -6,7 +6,8 @@ import pikepdf
 import printer
 import pytest
 
-from kacsim import carriers, cli, files, plan, recipes
+from kacsim import cli, files, plan
+from kacsim.recipes import carriers, lines
 from kacsim.report import browser, printing, runtime
 
 PAGE = '<p class="source">kacsim 0</p><code id="configuration">{"a": {}}</code>'
@@ -51,8 +52,8 @@ def test_a_print_has_the_same_bytes_and_carries_the_recipe(fake):
     first = pdf.read_bytes()
     printing.write(page, pdf)
     assert pdf.read_bytes() == first
-    recipe = recipes.parsed(carriers.read(pdf), pdf)
-    assert recipe == recipes.Recipe("", {"a": {}}, {}, "kacsim 0")
+    recipe = lines.parsed(carriers.read(pdf), pdf)
+    assert recipe == lines.Recipe("", {"a": {}}, {}, "kacsim 0")
 
 
 def test_what_is_no_pdf_is_refused(fake):

@@ -6,11 +6,12 @@ import re
 import numpy as np
 import pytest
 
-from kacsim import carriers, cli, files, items, plan, plotting, recipes, store
+from kacsim import cli, files, items, plan, plotting, store
 from kacsim.again import comparing, reading
 from kacsim.cases import make_case
 from kacsim.jobs import sampling
 from kacsim.kernels.provenance import ROOT
+from kacsim.recipes import carriers, lines
 from kacsim.report import csv_table
 
 xr = pytest.importorskip("xarray")
@@ -33,7 +34,7 @@ def dataset(settings):
 
 def carried(kind, dataset, path):
     """Write a file that carries the recipe of the dataset."""
-    recipe = recipes.of_figure(dataset, "4567")
+    recipe = lines.of_figure(dataset, "4567")
     if kind == "csv":
         csv_table.write(dataset, path, recipe)
     else:
@@ -95,14 +96,14 @@ WRONG = [
     (json.dumps({"item": "a"}), "carries no recipe of kacsim: code, settings, source is missing"),
     (json.dumps(GOOD | {"shell": "rm"}), "its recipe has unknown words: shell"),
     (json.dumps(GOOD | {"settings": []}), "settings = '[]' in its recipe: must be a dict"),
-    (json.dumps(GOOD) + " " * recipes.LARGEST, "its recipe has 1000054 characters, more than"),
+    (json.dumps(GOOD) + " " * lines.LARGEST, "its recipe has 1000054 characters, more than"),
 ]
 
 
 @pytest.mark.parametrize(("text", "sentence"), WRONG)
 def test_a_wrong_recipe_is_refused(text, sentence):
     with pytest.raises(files.StoreError, match=re.escape(f"a.png: {sentence}")):
-        recipes.parsed(text, "a.png")
+        lines.parsed(text, "a.png")
 
 
 FOLLOWED = [
@@ -176,26 +177,35 @@ def test_other_samples_are_told(tmp_path, capsys):
     assert list(tmp_path.iterdir()) == [tmp_path / "a.nc"]
 
 
+def test_other_settings_are_other_content(tmp_path):
+    """Not so what tells the commit, the sources and the sum of all."""
+    case = make_case("identity", n_draws=50, n_replicates=1, seed=3)
+    variables = sampling.run(case, lambda done: None)
+    for seed, code in ((3, "a"), (3, "b"), (4, "a")):
+        told = {"title": "t", "settings": {"seed": seed}, "code": code}
+        store.write(variables, tmp_path / f"{seed}{code}.nc", **told)
+    first, *others = (tmp_path / name for name in ("3a.nc", "3b.nc", "4a.nc"))
+    assert [comparing.differences(first, other) for other in others] == [
+        [],
+        ["bits: other attribute settings"],
+    ]
+
+
 def test_what_differs_here_is_told_a_line_each(dataset, settings, tmp_path):
     about = dataset.attrs | {
         "source": "kacsim 0.1, commit 0+changes",
         "settings": settings | {"x": 1},
     }
-    text = recipes.of_figure(dataset.assign_attrs(about), "4567")
+    text = lines.of_figure(dataset.assign_attrs(about), "4567")
     checked = reading.plan_of({NAME: settings}, "a.png")
-    recipe = recipes.parsed(text, "a.png")
-    lines = reading.differences(reading.Order(tmp_path / "a.png", text, recipe, None, checked))
-    assert [line.partition(":")[0] for line in lines] == [
-        "settings",
-        "sources",
-        "versions",
-        "sources",
-    ]
-    assert lines[0] == "settings: other x here"
-    assert lines[1] == "sources: other code here to draw and reduce"
-    assert lines[2].startswith("versions: kacsim ")
-    assert "here, kacsim 0.1 there" in lines[2]
-    assert lines[3] == "sources: made from files with changes that no commit holds"
+    recipe = lines.parsed(text, "a.png")
+    told = reading.differences(reading.Order(tmp_path / "a.png", text, recipe, None, checked))
+    assert len(told) == 4
+    assert told[0] == "settings: other x here"
+    assert told[1] == "sources: other code here to draw and reduce"
+    assert told[2].startswith("versions: kacsim ")
+    assert "here, kacsim 0.1 there" in told[2]
+    assert told[3] == "sources: made from files with changes that no commit holds"
 
 
 FOREIGN = [

@@ -10,8 +10,7 @@ from kacsim.cases import make_case
 from kacsim.items import _probes
 from kacsim.items._lazy import bkw, estimate, np, null_moment, plotting, store, trap, verdict, xr
 
-FINE = 120  # points of the curves against time
-RATIOS_SHOWN = 40  # and against the raised frequency, an equation each
+FINE = 120  # points of the curves
 BUDGET = 1e8  # nodes of the largest tree that one waits for, some ten seconds
 RATIOS = (1.0, 2.6)  # of the axis
 
@@ -66,7 +65,7 @@ def reduce(samples, settings):
     sample = samples[_uniform(settings).id]
     ratio, time = (np.array(settings[name], float) for name in ("ratio", "time"))
     fine = np.linspace(0.0, settings["latest"], FINE)
-    axis = np.linspace(*RATIOS, RATIOS_SHOWN)
+    axis = np.linspace(*RATIOS, FINE)
     square = sample["mean_square"].values
     n = settings["n_replicates"]
     critical = np.array([null_moment.critical_time(one) for one in axis])

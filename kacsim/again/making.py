@@ -9,7 +9,7 @@ from kacsim import items, plotting, store
 from kacsim.files import StoreError, replace_file
 from kacsim.jobs import sampling
 from kacsim.kernels.provenance import ROOT
-from kacsim.report import csv_table, printing
+from kacsim.report import csv_table, page, printing
 
 CONFIG = "recipe.json"
 LAST = 12  # lines of a failed run that are shown
@@ -37,11 +37,7 @@ def make(order, output, scratch, cores, advance=None):
         _write_samples(variables, order, output)
         return
     if not order.recipe.item:
-        target = _run(order, f"results/report/report{output.suffix}", scratch, cores)
-        if output.suffix == ".pdf":
-            replace_file(output, lambda name: printing.settle(target, name, order.text))
-        else:
-            _copy(target, output)
+        _make_report(order, output, _run(order, "results/report/report.html", scratch, cores))
         return
     name = order.recipe.item
     target = _run(order, f"results/datasets/{name}.nc", scratch, cores)
@@ -52,6 +48,19 @@ def make(order, output, scratch, cores, advance=None):
         csv_table.write(dataset, output, order.text)
     else:
         plotting.save(items.load(name).draw(dataset), output, order.text)
+
+
+def _make_report(order, output, report):
+    """Write the page of a run with the command that the first one tells, and print it."""
+    results = report.parent.parent
+    folders = results / "datasets", results / "figures"
+    page.write(items.NAMES, *folders, report, order.recipe.options)
+    if output.suffix == ".html":
+        _copy(report, output)
+        return
+    printed = report.with_suffix(".pdf")
+    printing.write(report, printed)
+    replace_file(output, lambda name: printing.settle(printed, name, order.text))
 
 
 def _copy(source, output):

@@ -84,8 +84,8 @@ def _of_page(path):
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise StoreError(f"{path}: cannot be read: {error}") from error
-    settings, source = carriers.of_page(text, path)
-    recipe = lines.Recipe("", settings, {}, source)
+    settings, source, options = carriers.of_page(text, path)
+    recipe = lines.Recipe("", settings, {}, source, options)
     return Order(path, "", recipe, None, plan_of(settings, path))
 
 

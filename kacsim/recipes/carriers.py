@@ -11,7 +11,7 @@ TABLE = "-metadata.json"  # what follows the name of a table of text (CSV on the
 FIELD = {"svg": "Description", "png": "Description", "pdf": "Subject"}  # of matplotlib's metadata
 SVG = re.compile(r"<dc:description>(.*?)</dc:description>", re.S)
 # On the page of the report: the configuration, and whatever names commits and versions.
-CONFIGURATION = re.compile(r'<code id="configuration">(.*?)</code>', re.S)
+CONFIGURATION = re.compile(r'<code id="configuration"(?: data-options="(.*?)")?>(.*?)</code>', re.S)
 SOURCES = re.compile(r"<(\w+) class=\"source\">(.*?)</\1>", re.S)
 
 
@@ -76,7 +76,7 @@ def beside(table):
 
 
 def of_page(text, path):
-    """Return (settings of every item, source) that the page of a report tells.
+    """Return (settings of every item, source, options) that the page of a report tells.
 
     Raises
     ------
@@ -85,10 +85,11 @@ def of_page(text, path):
     """
     found, sources = CONFIGURATION.search(text), SOURCES.search(text)
     try:
-        settings = json.loads(html.unescape(found[1]))
+        settings = json.loads(html.unescape(found[2]))
     except (TypeError, ValueError) as error:
         raise StoreError(f"{path}: is no report with its configuration as JSON") from error
-    return settings, html.unescape(sources[2]) if sources else ""
+    source = html.unescape(sources[2]).strip().removesuffix(".") if sources else ""
+    return settings, source, html.unescape(found[1] or "")
 
 
 def without_sources(text):

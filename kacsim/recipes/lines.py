@@ -10,7 +10,8 @@ from typing import NamedTuple
 from kacsim.files import StoreError
 from kacsim.kernels import provenance, sources
 
-KEYS = {"item": str, "settings": dict, "code": dict, "source": str}
+KEYS = {"item": str, "settings": dict, "code": dict, "source": str, "options": str}
+OPTIONAL = {"options"}
 LARGEST = 1_000_000  # characters
 
 
@@ -23,12 +24,14 @@ class Recipe(NamedTuple):
     settings : dict, of the item, or sampler, parameters and size of the case
     code : dict stage -> hash of the sources that the stage depends on
     source : str, version, commit and versions of libraries
+    options : str, of the command that a report tells; words for its page only
     """
 
     item: str
     settings: dict
     code: dict
     source: str
+    options: str = ""
 
 
 def of_figure(dataset, code):
@@ -60,9 +63,9 @@ def of_case(case):
     return json.dumps(recipe, sort_keys=True)
 
 
-def of_report(settings, source):
+def of_report(settings, source, options):
     """Return the recipe of a report: the settings of all its items, as one line of text."""
-    return json.dumps({"item": "", "settings": settings, "code": {}, "source": source})
+    return json.dumps(Recipe("", settings, {}, source, options)._asdict())
 
 
 def parsed(text, path):
@@ -79,13 +82,13 @@ def parsed(text, path):
         found = json.loads(text)
     except ValueError as error:
         raise StoreError(f"{path}: carries no recipe of kacsim: {error}") from error
-    if not isinstance(found, dict) or (missing := sorted(KEYS - found.keys())):
+    if not isinstance(found, dict) or (missing := sorted(KEYS.keys() - found.keys() - OPTIONAL)):
         lack = f": {', '.join(missing)} is missing" if isinstance(found, dict) else ""
         raise StoreError(f"{path}: carries no recipe of kacsim{lack}")
     if unknown := sorted(found.keys() - KEYS):
         raise StoreError(f"{path}: its recipe has unknown words: {', '.join(unknown)}")
     for key, kind in KEYS.items():
-        if not isinstance(found[key], kind):
+        if key in found and not isinstance(found[key], kind):
             value = str(found[key])[:60]
             raise StoreError(f"{path}: {key} = {value!r} in its recipe: must be a {kind.__name__}")
     return Recipe(**found)

@@ -10,7 +10,10 @@ from kacsim import cli, files, plan
 from kacsim.recipes import carriers, lines
 from kacsim.report import browser, printing, runtime
 
-PAGE = '<p class="source">kacsim 0</p><code id="configuration">{"a": {}}</code>'
+PAGE = (
+    '<p class="source">kacsim 0.</p>'
+    '<code id="configuration" data-options="--config a=&#34;b&#34;">{"a": {}}</code>'
+)
 
 
 @pytest.fixture
@@ -53,7 +56,7 @@ def test_a_print_has_the_same_bytes_and_carries_the_recipe(fake):
     printing.write(page, pdf)
     assert pdf.read_bytes() == first
     recipe = lines.parsed(carriers.read(pdf), pdf)
-    assert recipe == lines.Recipe("", {"a": {}}, {}, "kacsim 0")
+    assert recipe == lines.Recipe("", {"a": {}}, {}, "kacsim 0", '--config a="b"')
 
 
 def test_what_is_no_pdf_is_refused(fake):

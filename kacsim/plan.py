@@ -120,7 +120,7 @@ class Plan:
 
     def _settings_of(self, name):
         common = {key: self.config[key] for key in COMMON}
-        settings = common | self.config[name]
+        settings = items.settled(name, common | self.config[name])
         uses = items.uses(name)
         if items.costs(name):
             settings["costs"] = items.costs(name)

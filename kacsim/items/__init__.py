@@ -41,6 +41,11 @@ def uses(name):
     return getattr(load(name), "USES", ())
 
 
+def settled(name, settings):
+    """Return an item's settings with all that they stand for, such as the content of a file."""
+    return getattr(load(name), "settled", lambda given: given)(settings)
+
+
 def costs(name):
     """Return the measured costs that an item shows, which enter its settings; None without any."""
     return getattr(load(name), "costs", lambda: None)()

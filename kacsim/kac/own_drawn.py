@@ -1,6 +1,7 @@
 """The tables of `kacsim.kac.own_law`: of laws by their names, of files, of `tabulate`."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -31,6 +32,7 @@ def initial_law(value=None):
     ValueError
         Names the argument, its value and what is allowed.
     """
+    value = str(value) if isinstance(value, Path) else value
     if value is None or isinstance(value, str):
         raise_problems(own_tables.problems("initial", value, own_tables.INITIALS))
     if value is None or (isinstance(value, str) and value == "f0"):
@@ -75,6 +77,7 @@ def scattering_law(value=None):
     ValueError
         Names the argument, its value and what is allowed.
     """
+    value = str(value) if isinstance(value, Path) else value
     if value is not None and not isinstance(value, str):
         return _drawn(own_tables.even(own_tables.pieces_of_table("scattering", value, angles=True)))
     value = own_tables.SCATTERINGS[0] if value is None else value

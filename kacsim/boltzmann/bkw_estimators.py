@@ -3,25 +3,26 @@
 from kacsim import checks
 from kacsim.boltzmann import bkw, bkw_tree, mckean_tree, null_collisions
 from kacsim.boltzmann.constants import MAX_NODES
-from kacsim.boltzmann.estimators import estimate_from, length, sizes, vector_of
+from kacsim.boltzmann.estimators import Estimate, estimate_from, length, sizes, vector_of
 from kacsim.mckean import choice
 from kacsim.mckean.constants import BKW
 from kacsim.samplers import declared
+from kacsim.typed import ArrayLike
 
 
 def estimate_bkw(
-    velocity,
-    time,
+    velocity: ArrayLike,
+    time: float,
     *,
-    n_realizations,
-    seed,
-    rms_velocity=1.0,
-    oversampling=1.0,
-    onset=0.0,
-    method=choice.BRANCHING,
-    cut=0.0,
-    max_nodes=MAX_NODES,
-):
+    n_realizations: int,
+    seed: int,
+    rms_velocity: float = 1.0,
+    oversampling: float = 1.0,
+    onset: float = 0.0,
+    method: str = choice.BRANCHING,
+    cut: float = 0.0,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate f(c; t) of the BKW mode: by Algorithm 2 (Boltzmann paper, section II), or others.
 
     Parameters
@@ -71,18 +72,18 @@ def estimate_bkw(
 
 
 def estimate_bkw_fraction(
-    threshold,
-    time,
+    threshold: float,
+    time: float,
     *,
-    n_realizations,
-    seed,
-    rms_velocity=1.0,
-    oversampling=1.0,
-    onset=0.0,
-    method=choice.BRANCHING,
-    cut=0.0,
-    max_nodes=MAX_NODES,
-):
+    n_realizations: int,
+    seed: int,
+    rms_velocity: float = 1.0,
+    oversampling: float = 1.0,
+    onset: float = 0.0,
+    method: str = choice.BRANCHING,
+    cut: float = 0.0,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate the fraction of particles with |c| > threshold by Algorithm 3 and eq. (19).
 
     Parameters, result and errors as `estimate_bkw`, with threshold >= 0 in place of velocity.
@@ -106,8 +107,15 @@ def estimate_bkw_fraction(
 
 
 def estimate_extinction(
-    time, *, n_realizations, seed, rate, initial, majorant, max_nodes=MAX_NODES
-):
+    time: float,
+    *,
+    n_realizations: int,
+    seed: int,
+    rate: float,
+    initial: float,
+    majorant: float,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate f(t) of f' = -rate f**2, f(0) = initial, by Algorithm 4 (section III).
 
     Parameters

@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from kacsim import checks
-from kacsim.boltzmann.estimators import estimate_from, length, sizes, vector_of
+from kacsim.boltzmann.estimators import Estimate, estimate_from, length, sizes, vector_of
 from kacsim.boltzmann.relaxation import Relaxation
 from kacsim.mckean.constants import BKW, METHODS
+from kacsim.typed import ArrayLike, HasMgf
 
 NEAR = 0.01  # speeds below it take sinh(z c) / c in place of exp(-z c)
 LATEST = 12.0  # mean collision times of whole trees: e**12 leaves
@@ -43,7 +44,15 @@ def estimate(factor, unit, probe, time, kind, initial, *, n_realizations, seed, 
     return estimate_from(draw, unit, n_realizations, seed, name, METHODS[0])
 
 
-def estimate_relaxation(velocity, time, *, initial, n_realizations, seed, cut=0.0):
+def estimate_relaxation(
+    velocity: ArrayLike,
+    time: float,
+    *,
+    initial: HasMgf,
+    n_realizations: int,
+    seed: int,
+    cut: float = 0.0,
+) -> Estimate:
     """Estimate f(c; t) of Maxwell molecules that start from any isotropic law.
 
     Parameters
@@ -81,7 +90,15 @@ def estimate_relaxation(velocity, time, *, initial, n_realizations, seed, cut=0.
     return estimate(factor, unit, {"velocity": speed}, time, BKW, initial, name=name, **sizes_)
 
 
-def estimate_relaxation_fraction(threshold, time, *, initial, n_realizations, seed, cut=0.0):
+def estimate_relaxation_fraction(
+    threshold: float,
+    time: float,
+    *,
+    initial: HasMgf,
+    n_realizations: int,
+    seed: int,
+    cut: float = 0.0,
+) -> Estimate:
     """Estimate the fraction of Maxwell molecules faster than a threshold, from any isotropic law.
 
     Parameters, result and errors as `estimate_relaxation`, with threshold >= 0.

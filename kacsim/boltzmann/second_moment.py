@@ -16,6 +16,7 @@ from scipy import integrate, special
 
 from kacsim import checks
 from kacsim.boltzmann import bkw
+from kacsim.typed import ArrayLike, Floats
 
 N_TERMS = 120
 FARTHEST = 7.0  # speed up to which double precision holds the alternating sum
@@ -52,7 +53,7 @@ def variance(speed, time):
     return at_speed(speed, time) - bkw.relative_density(speed, time) ** 2
 
 
-def relative_deviation(speed, time):
+def relative_deviation(speed: ArrayLike, time: float) -> float | Floats:
     """Return the standard deviation of one realization of Algorithm 2 over f(c; t), exactly.
 
     Parameters

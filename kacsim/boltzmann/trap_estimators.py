@@ -5,9 +5,10 @@ import numpy as np
 from kacsim import checks
 from kacsim.boltzmann import trap, trap_tree
 from kacsim.boltzmann.constants import BREATHING, MAX_NODES
-from kacsim.boltzmann.estimators import estimate_from, length, product, sizes, vector_of
+from kacsim.boltzmann.estimators import Estimate, estimate_from, length, product, sizes, vector_of
 from kacsim.boltzmann.samplers import phase
 from kacsim.samplers import declared
+from kacsim.typed import ArrayLike
 
 PUBLISHED = {"majorant_factor": 1.0, "spread": 1.0, "anisotropy": 0.0}  # laws of the text
 
@@ -27,24 +28,24 @@ def _turned(angular_frequency, time):
 
 
 def estimate_trap(
-    position,
-    velocity,
-    time,
+    position: ArrayLike,
+    velocity: ArrayLike,
+    time: float,
     *,
-    n_realizations,
-    seed,
-    initial="bkw",
-    breathing=BREATHING,
-    start_phase=0.0,
-    angular_frequency=1.0,
-    rms_velocity=1.0,
-    amount=1.0,
-    cross_section=3.0,
-    majorant_factor=1.0,
-    spread=1.0,
-    anisotropy=0.0,
-    max_nodes=MAX_NODES,
-):
+    n_realizations: int,
+    seed: int,
+    initial: str = "bkw",
+    breathing: float = BREATHING,
+    start_phase: float = 0.0,
+    angular_frequency: float = 1.0,
+    rms_velocity: float = 1.0,
+    amount: float = 1.0,
+    cross_section: float = 3.0,
+    majorant_factor: float = 1.0,
+    spread: float = 1.0,
+    anisotropy: float = 0.0,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate f(r; c; t) in the harmonic trap by Algorithm 6, or 5 (sections IV and V).
 
     Parameters
@@ -100,20 +101,20 @@ def estimate_trap(
 
 
 def estimate_trap_fraction(
-    radius,
-    time,
+    radius: float,
+    time: float,
     *,
-    n_realizations,
-    seed,
-    initial="bkw",
-    breathing=BREATHING,
-    start_phase=0.0,
-    angular_frequency=1.0,
-    rms_velocity=1.0,
-    amount=1.0,
-    cross_section=3.0,
-    max_nodes=MAX_NODES,
-):
+    n_realizations: int,
+    seed: int,
+    initial: str = "bkw",
+    breathing: float = BREATHING,
+    start_phase: float = 0.0,
+    angular_frequency: float = 1.0,
+    rms_velocity: float = 1.0,
+    amount: float = 1.0,
+    cross_section: float = 3.0,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate the fraction of matter with |r| > radius by Algorithm 7 and eq. (40).
 
     Parameters, result and errors as `estimate_trap`, with radius >= 0 in place of the probe.

@@ -11,6 +11,7 @@ from kacsim.kac import perfect, perfect_blocks, samplers
 from kacsim.kac.constants import RATE
 from kacsim.kernels.lookup import named
 from kacsim.streams import new_stream
+from kacsim.typed import Floats, Integers, Law
 
 
 def kernel_of(parameters):
@@ -37,18 +38,18 @@ NOT_OF_THE_ENSEMBLE = ("algorithm", *samplers.HOW_TO_DRAW)
 
 
 def draw(
-    algorithm,
+    algorithm: str,
     *,
-    n_particles,
-    time,
-    n_draws,
-    seed,
-    collision_rate=RATE,
-    engine="ancestral",
-    initial=None,
-    scattering=None,
-    **parameters,
-):
+    n_particles: int | float,
+    time: float,
+    n_draws: int,
+    seed: int,
+    collision_rate: float = RATE,
+    engine: str = "ancestral",
+    initial: Law | None = None,
+    scattering: Law | None = None,
+    **parameters: float | None,
+) -> Floats:
     """Draw independent values of v_1(t), each from an ensemble of its own (Kac paper, section 4).
 
     Parameters
@@ -104,7 +105,9 @@ def draw(
     return velocities
 
 
-def draw_equilibrium(*, n_particles, tolerance, n_draws, seed, energy=None):
+def draw_equilibrium(
+    *, n_particles: int, tolerance: float, n_draws: int, seed: int, energy: float | None = None
+) -> tuple[Floats, Integers]:
     """Draw epsilon-perfect values of v_1 at equilibrium (Kac paper, section 5).
 
     Parameters
@@ -140,7 +143,9 @@ def draw_equilibrium(*, n_particles, tolerance, n_draws, seed, energy=None):
     return velocities, times
 
 
-def draw_perfect(*, n_particles, n_draws, seed, energy=None):
+def draw_perfect(
+    *, n_particles: int, n_draws: int, seed: int, energy: float | None = None
+) -> Floats:
     """Draw v_1 at equilibrium, exactly: the perfect sampler with epsilon = 0 (docs/perfect.md).
 
     Parameters

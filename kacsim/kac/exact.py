@@ -10,6 +10,7 @@ import numpy as np
 from scipy import special
 
 from kacsim.kac.constants import MEAN_ENERGY, RATE
+from kacsim.typed import ArrayLike, Floats
 
 ENERGIES = 1000  # parts of the law of an ensemble's energy
 
@@ -21,7 +22,7 @@ def shape(time, collision_rate=RATE):
     return 1.0 / (3.0 - 2.0 * math.exp(-collision_rate * time / 8.0))
 
 
-def density(v, time, collision_rate=RATE):
+def density(v: ArrayLike, time: float, collision_rate: float = RATE) -> float | Floats:
     """Return f(v, t), the solution of the Kac equation (Kac paper, eqs. 8 and 9).
 
     It is for the paper's f0 and uniform angles.
@@ -38,7 +39,7 @@ def density(v, time, collision_rate=RATE):
     return (constant + quadratic * v**2) * np.exp(-c * v**2) / math.sqrt(math.pi)
 
 
-def survival(v, time, collision_rate=RATE):
+def survival(v: ArrayLike, time: float, collision_rate: float = RATE) -> float | Floats:
     """Return P(V > v) under eq. (8), without cancellation in the upper tail.
 
     It is for the paper's f0 and uniform angles; arguments as `density`.
@@ -49,7 +50,7 @@ def survival(v, time, collision_rate=RATE):
     return 0.5 * special.erfc(w) + odd
 
 
-def cumulative(v, time, collision_rate=RATE):
+def cumulative(v: ArrayLike, time: float, collision_rate: float = RATE) -> float | Floats:
     """Return P(V <= v) under eq. (8), for the paper's f0 and uniform angles; as `density`."""
     return survival(-np.asarray(v, dtype=float), time, collision_rate)
 

@@ -27,7 +27,14 @@ TERMS = 40  # of log(1 + 2 L / N), where the matrix is small
 DIRECT = 200  # particles up to which Bird's matrix is raised to its power by multiplications
 
 
-def moment(order, time, n_particles=math.inf, *, algorithm="poisson", collision_rate=RATE):
+def moment(
+    order: int,
+    time: float,
+    n_particles: int | float = math.inf,
+    *,
+    algorithm: str = "poisson",
+    collision_rate: float = RATE,
+) -> float:
     """Return E v_1**order at time t, exactly, from v**2 that follow Gamma(3/2, 1).
 
     It is for the paper's f0, whose v**2 these are, and uniform angles.

@@ -23,8 +23,13 @@ def gain(n):
 
 
 def fourth_moment(
-    time, n_particles=math.inf, *, algorithm="poisson", collision_rate=RATE, **parameters
-):
+    time: float,
+    n_particles: float = math.inf,
+    *,
+    algorithm: str = "poisson",
+    collision_rate: float = RATE,
+    **parameters: float | None,
+) -> float:
     """Return E v_1**4 at time t, exactly, for one algorithm at finite N and finite step.
 
     It is for the paper's f0 and uniform angles.

@@ -19,15 +19,21 @@ from kacsim.kac.constants import MEAN_ENERGY, RATE
 from kacsim.kac.exact import cumulative as paper_cumulative
 from kacsim.kac.moments import INITIAL_SQUARE
 from kacsim.kac.own_drawn import tables
+from kacsim.typed import Law
 
 ALGORITHMS = ("poisson", "bird")
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(64)  # of a cosine of at most 50 radians
 
 
 def fourth_moment(
-    time, n_particles=math.inf, *, initial=None, scattering=None, algorithm="poisson",
-    collision_rate=RATE,
-):  # fmt: skip
+    time: float,
+    n_particles: int | float = math.inf,
+    *,
+    initial: Law | None = None,
+    scattering: Law | None = None,
+    algorithm: str = "poisson",
+    collision_rate: float = RATE,
+) -> float:
     """Return E v_1**4 at time t, exactly.
 
     Parameters

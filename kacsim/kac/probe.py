@@ -5,6 +5,7 @@ import math
 from kacsim import checks
 from kacsim.boltzmann import estimators
 from kacsim.boltzmann.constants import MAX_NODES
+from kacsim.boltzmann.estimators import Estimate
 from kacsim.kac import mckean_tree, probe_tree
 from kacsim.kac.constants import RATE
 from kacsim.mckean import choice
@@ -20,18 +21,18 @@ def critical_time(collision_rate=RATE):
 
 
 def estimate_density(
-    v,
-    time,
+    v: float,
+    time: float,
     *,
-    n_realizations,
-    seed,
-    oversampling=1.0,
-    onset=0.0,
-    collision_rate=RATE,
-    method=choice.BRANCHING,
-    cut=0.0,
-    max_nodes=MAX_NODES,
-):
+    n_realizations: int,
+    seed: int,
+    oversampling: float = 1.0,
+    onset: float = 0.0,
+    collision_rate: float = RATE,
+    method: str = choice.BRANCHING,
+    cut: float = 0.0,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate f(v, t) of the Kac equation, by the Boltzmann paper's branching trees or others.
 
     It is for the paper's f0 and uniform angles: `estimate_relaxation` takes any symmetric one.
@@ -79,16 +80,16 @@ def estimate_density(
 
 
 def estimate_tail(
-    v,
-    time,
+    v: float,
+    time: float,
     *,
-    n_realizations,
-    seed,
-    collision_rate=RATE,
-    method=choice.BEST,
-    cut=0.0,
-    max_nodes=MAX_NODES,
-):
+    n_realizations: int,
+    seed: int,
+    collision_rate: float = RATE,
+    method: str = choice.BEST,
+    cut: float = 0.0,
+    max_nodes: int = MAX_NODES,
+) -> Estimate:
     """Estimate P(v_1(t) > v) of the Kac equation by McKean's trees (docs/ancestral_trees.md).
 
     It is for the paper's f0 and uniform angles: `estimate_relaxation_tail` takes any symmetric one.

@@ -1,12 +1,23 @@
 """Any symmetric initial law on Kac's line, at any time."""
 
 from kacsim import checks
+from kacsim.boltzmann.estimators import Estimate
 from kacsim.boltzmann.relaxation_estimators import estimate
 from kacsim.kac.constants import RATE
 from kacsim.mckean.constants import KAC
+from kacsim.typed import HasMgf
 
 
-def estimate_relaxation(v, time, *, initial, n_realizations, seed, collision_rate=RATE, cut=0.0):
+def estimate_relaxation(
+    v: float,
+    time: float,
+    *,
+    initial: HasMgf,
+    n_realizations: int,
+    seed: int,
+    collision_rate: float = RATE,
+    cut: float = 0.0,
+) -> Estimate:
     """Estimate f(v, t) of the Kac equation that starts from any symmetric law, for uniform angles.
 
     Parameters
@@ -34,8 +45,15 @@ def estimate_relaxation(v, time, *, initial, n_realizations, seed, collision_rat
 
 
 def estimate_relaxation_tail(
-    v, time, *, initial, n_realizations, seed, collision_rate=RATE, cut=0.0
-):
+    v: float,
+    time: float,
+    *,
+    initial: HasMgf,
+    n_realizations: int,
+    seed: int,
+    collision_rate: float = RATE,
+    cut: float = 0.0,
+) -> Estimate:
     """Estimate P(v_1(t) > v) of the Kac equation from any symmetric law, for uniform angles.
 
     Parameters, result and errors as `estimate_relaxation`, with v >= 0.

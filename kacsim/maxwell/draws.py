@@ -7,6 +7,7 @@ from kacsim.cases import make_case
 from kacsim.kernels.lookup import named
 from kacsim.maxwell.constants import RATE
 from kacsim.streams import new_stream
+from kacsim.typed import Floats
 
 NOT_OF_THE_ENSEMBLE = ("algorithm", "engine", "keep_above")
 
@@ -21,7 +22,16 @@ def kernel_of(parameters):
     return kernel, arguments(**own, collision_rate=RATE)
 
 
-def draw(algorithm, *, n_particles, time, n_draws, seed, time_step=None, engine="ancestral"):
+def draw(
+    algorithm: str,
+    *,
+    n_particles: int | float,
+    time: float,
+    n_draws: int,
+    seed: int,
+    time_step: float | None = None,
+    engine: str = "ancestral",
+) -> Floats:
     """Draw independent velocities of particle 1 of a gas of Maxwell molecules.
 
     The gas starts from the BKW mode, density proportional to c**2 exp(-c**2 / 1.2), collides once

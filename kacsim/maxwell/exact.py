@@ -11,6 +11,7 @@ import numpy as np
 from scipy import special
 
 from kacsim.boltzmann import bkw
+from kacsim.typed import ArrayLike, Floats
 
 
 def shape(time, collision_rate=1.0):
@@ -20,7 +21,7 @@ def shape(time, collision_rate=1.0):
     return float(bkw.shape(collision_rate * time))
 
 
-def density(speed, time, collision_rate=1.0):
+def density(speed: ArrayLike, time: float, collision_rate: float = 1.0) -> float | Floats:
     """Return the density 4 pi c**2 f(c; t) of the speed.
 
     Parameters
@@ -34,13 +35,13 @@ def density(speed, time, collision_rate=1.0):
     return 4.0 * math.pi * c**2 * bkw.density(c, collision_rate * time)
 
 
-def survival(speed, time, collision_rate=1.0):
+def survival(speed: ArrayLike, time: float, collision_rate: float = 1.0) -> float | Floats:
     """Return P(|v| > c), without cancellation at high speeds; arguments as `density`."""
     k = shape(time, collision_rate)
     return bkw.fraction_of_shape(np.maximum(np.asarray(speed, dtype=float), 0.0), k)
 
 
-def cumulative(speed, time, collision_rate=1.0):
+def cumulative(speed: ArrayLike, time: float, collision_rate: float = 1.0) -> float | Floats:
     """Return P(|v| <= c), without cancellation at low speeds; arguments as `density`."""
     k = shape(time, collision_rate)
     half_square = np.maximum(np.asarray(speed, dtype=float), 0.0) ** 2 / (2.0 * k)

@@ -20,6 +20,7 @@ E |v|**4 = 15 - 2.4 exp(-rate t / 3) = 15 K (2 - K) without one, but for the seq
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from scipy import linalg
@@ -37,8 +38,13 @@ NODES = (6, 8, 10, 12, 16, 20)  # of the polynomial in 1 / N
 
 
 def fourth_moment(
-    time, n_particles=math.inf, *, algorithm="poisson", collision_rate=1.0, **parameters
-):
+    time: float,
+    n_particles: float = math.inf,
+    *,
+    algorithm: str = "poisson",
+    collision_rate: float = 1.0,
+    **parameters: float | None,
+) -> float:
     """Return E |v_1|**4 at time t of Maxwell molecules that start from the BKW mode, exactly.
 
     Parameters
@@ -128,7 +134,7 @@ def _nanbu_sequential(n, time, rate, time_step):
     )
 
 
-MOMENTS = {
+MOMENTS: dict[str, Callable[..., float]] = {
     "nanbu_sequential": _nanbu_sequential,
     "nanbu_synchronous": _nanbu_synchronous,
     "nanbu_babovsky": _nanbu_babovsky,

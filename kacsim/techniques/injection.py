@@ -5,6 +5,7 @@ are in the order of `FACES`; the cuboid reaches from -L to +L on each axis.
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from kacsim.techniques.constants import (
     TANGENT_2,
     VELOCITY,
 )
+from kacsim.typed import Floats, Integers
 from kacsim.variates import exponential, half_normal, random_sign, uniform
 
 POISSON_PIECE = 500.0  # exp(-mean) of a larger mean would be lost
@@ -221,7 +223,16 @@ def outer_gas(*, density, temperature, drift, half_width, step):
     return density * float(np.prod(2.0 * reach)), reach, *state, float(step)
 
 
-def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
+def inject(
+    *,
+    density: float,
+    temperature: float,
+    drift: Sequence[float] | Floats,
+    half_width: Sequence[float] | Floats,
+    step: float,
+    n_steps: int,
+    seed: int,
+) -> tuple[Integers, Floats, Floats, Integers]:
     """Draw the particles that enter a cuboid from a drifting Maxwellian gas (section 11.3).
 
     Parameters
@@ -244,9 +255,8 @@ def inject(*, density, temperature, drift, half_width, step, n_steps, seed):
     ValueError
         Names the argument, its value and what is allowed.
     """
-    drift, half_width = list(drift), list(half_width)
-    state = {"density": density, "temperature": temperature, "drift": drift}
-    state |= {"half_width": half_width, "step": step}
+    state = {"density": density, "temperature": temperature, "drift": list(drift)}
+    state |= {"half_width": list(half_width), "step": step}
     checks.raise_problems(declared("injection", state))
     checks.raise_problems(checks.amount(n_draws=1, n_replicates=1, seed=seed))
     checks.raise_problems(checks.count("n_steps", n_steps))

@@ -1,6 +1,7 @@
 """Integration on a lattice and with random points (worked example, Fig. 11.4, exercise 3)."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numba import int64, uint64
@@ -11,6 +12,7 @@ from kacsim.kernels.jit import inlined, kernel
 from kacsim.samplers import declared
 from kacsim.streams import new_stream, next_bits
 from kacsim.techniques.constants import BLOCK
+from kacsim.typed import ArrayLike, Floats
 from kacsim.variates import uniform
 
 # A bad generator: independent numbers, but a counter of 20 bits, so that they run out.
@@ -176,7 +178,7 @@ def count_sobol(inside, n_points, dimension, stream):
         inside[place] = hits
 
 
-def lattice_count(dimension, edge):
+def lattice_count(dimension: int, edge: int) -> int:
     """Return the lattice points k - 1/2 over M inside the unit sphere, of the M**d in the cube.
 
     Parameters
@@ -197,7 +199,7 @@ def lattice_count(dimension, edge):
     return int(inside[-1])
 
 
-def sphere_volume(dimension, n_points, *, seed):
+def sphere_volume(dimension: int, n_points: int, *, seed: int) -> tuple[float, float]:
     """Estimate the share of the unit cube inside the unit sphere with random points (Fig. 11.4).
 
     Parameters
@@ -226,7 +228,9 @@ def sphere_volume(dimension, n_points, *, seed):
     return share, math.sqrt(share * (1.0 - share) / n_points)
 
 
-def integrate(function, low, high, *, n_points, seed):
+def integrate(
+    function: Callable[[Floats], ArrayLike], low: float, high: float, *, n_points: int, seed: int
+) -> tuple[float, float]:
     """Integrate a function of one variable with random points (chapter, section 11.2).
 
     Parameters

@@ -1,5 +1,7 @@
 """The inverse transform: u = P(v), by a table equally spaced in u, or in closed form (11.2)."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from kacsim import checks
@@ -8,6 +10,7 @@ from kacsim.streams import new_stream
 from kacsim.techniques import model
 from kacsim.techniques.constants import CLOSED, LAWS, SUPPORT
 from kacsim.techniques.exact import CUMULATIVES
+from kacsim.typed import ArrayLike, Floats
 from kacsim.variates import uniform
 
 BISECTIONS = 64
@@ -45,7 +48,9 @@ def closed_form(values, law, stream):
         values[k] = model.inverse(law, uniform(stream))
 
 
-def tabulate(cumulative, low, high, n_table):
+def tabulate(
+    cumulative: Callable[[Floats], ArrayLike], low: float, high: float, n_table: int
+) -> Floats:
     """Return the table of a cumulative function, equally spaced in u (chapter, Fig. 11.1).
 
     Parameters
@@ -116,7 +121,7 @@ def table_error(law, table, places):
     return np.interp(places, table, steps) - CUMULATIVES[law](np.asarray(places))
 
 
-def draw_from_table(table, *, n_draws, seed):
+def draw_from_table(table: ArrayLike, *, n_draws: int, seed: int) -> Floats:
     """Draw values through a table of `tabulate`, one uniform each.
 
     Parameters
@@ -145,7 +150,7 @@ def draw_from_table(table, *, n_draws, seed):
     return values
 
 
-def draw_by_inversion(law, *, n_draws, seed, rate=1.0):
+def draw_by_inversion(law: str, *, n_draws: int, seed: int, rate: float = 1.0) -> Floats:
     """Draw values by a cumulative function inverted in closed form (chapter, exercise 1).
 
     Parameters

@@ -5,6 +5,7 @@ import numpy as np
 from kacsim import checks
 from kacsim.kernels.jit import kernel
 from kacsim.streams import new_stream
+from kacsim.typed import ArrayLike, Integers
 from kacsim.variates import half_normal, random_sign, uniform
 
 
@@ -69,7 +70,14 @@ def index_range(velocities, weights, normal):
     return np.concatenate([[0.0], np.cumsum(lengths)])
 
 
-def inject_particles(velocities, *, normal, n_draws, seed, weights=None):
+def inject_particles(
+    velocities: ArrayLike,
+    *,
+    normal: ArrayLike,
+    n_draws: int,
+    seed: int,
+    weights: ArrayLike | None = None,
+) -> Integers:
     """Draw the numbers of particles that enter through a face, weighted by their flux.
 
     Parameters

@@ -1,6 +1,7 @@
 """The rejection method under a constant and under a closer envelope (chapter, section 11.2)."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from kacsim.streams import new_stream
 from kacsim.techniques import model
 from kacsim.techniques.constants import BLOCK, LAWS, SUPPORT
 from kacsim.techniques.exact import CLOSER_TOP, NARROW, TOPS
+from kacsim.typed import ArrayLike, Floats
 from kacsim.variates import uniform
 
 
@@ -68,7 +70,14 @@ def arguments(law, envelope):
     return LAWS.index(law), envelope == "closer", low, high - low, TOPS[law]
 
 
-def draw_by_rejection(density, envelope, propose, *, n_draws, seed):
+def draw_by_rejection(
+    density: Callable[[Floats], ArrayLike],
+    envelope: Callable[[Floats], ArrayLike],
+    propose: Callable[[Floats], ArrayLike],
+    *,
+    n_draws: int,
+    seed: int,
+) -> tuple[Floats, int]:
     """Draw values with a density known up to a factor, by rejection under any envelope.
 
     Parameters

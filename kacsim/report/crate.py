@@ -15,6 +15,7 @@ from kacsim.kernels.provenance import ROOT
 from kacsim.recipes import carriers
 from kacsim.report.page import read_text
 
+VERSION = "1.1"  # of RO-Crate, which these profiles are made for
 PROFILES = ("process/0.5", "workflow/0.5")
 FORM = "https://w3id.org/ro/wfrun/"
 WORKFLOW_CRATE = "https://w3id.org/workflowhub/workflow-ro-crate/1.0"
@@ -28,6 +29,7 @@ KINDS = {
     ".png": "image/png",
     ".svg": "image/svg+xml",
 }
+SHA256 = "https://w3id.org/ro/terms/workflow-run#sha256"
 INPUTS = ("environment.txt", "workflow/schemas/config.schema.yaml")
 
 
@@ -52,7 +54,8 @@ def write(results, output, with_samples=False):
     results = Path(results)
     report = results / "report" / "report.html"
     settings, source, _ = carriers.of_page(read_text(report), report)
-    crate = ROCrate()
+    crate = ROCrate(version=VERSION)
+    crate.metadata.extra_terms["sha256"] = SHA256
     crate.name = "Monte Carlo for kinetic equations: published results, regenerated"
     crate.description = f"A run of the kacsim workflow: {source}"
     crate.license = "https://spdx.org/licenses/MIT"
@@ -71,11 +74,12 @@ def write(results, output, with_samples=False):
         made = [_added(crate, path, results) for path in _results(results, with_samples)]
         action = {
             "name": f"Run of {source}",
-            "endTime": ended.isoformat(),
-            "actionStatus": {"@id": "http://schema.org/CompletedActionStatus"},
+            "description": "The published results, made again from nothing",
+            "endTime": ended.isoformat(timespec="seconds"),
+            "actionStatus": "http://schema.org/CompletedActionStatus",
         }
-        done = crate.add_action(workflow, object=given, result=made, properties=action)
-        crate.root_dataset["mentions"] = [done]
+        done = crate.add_action(workflow, "#run", object=given, result=made, properties=action)
+        crate.root_dataset["mentions"] = done
         _conform(crate)
         files.replace_file(output, crate.write_zip)
     return len(made)

@@ -61,6 +61,10 @@ def test_the_run_is_an_action_of_the_workflow(results, tmp_path):
     assert "configuration.json" in {one["@id"] for one in run["object"]}
     assert json.loads(content["configuration.json"]) == {"kac_fig4": {}}
     assert re.match(r"\d{4}-\d\d-\d\dT", run["endTime"])
+    # What the profiles' validator asks for.
+    about = entities["ro-crate-metadata.json"]["conformsTo"]
+    assert {"@id": "https://w3id.org/ro/crate/1.1"} in about
+    assert {"File", "SoftwareSourceCode", "ComputationalWorkflow"} <= set(workflow["@type"])
     forms = {one["@id"] for one in entities["./"]["conformsTo"]}
     assert "https://w3id.org/ro/wfrun/workflow/0.5" in forms
 

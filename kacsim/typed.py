@@ -7,6 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+OUTSIDE = "what a type says changes no result"
+
 __all__ = ["ArrayLike", "Floats", "HasMgf", "Integers", "Law"]
 
 Floats = NDArray[np.float64]

@@ -1,5 +1,7 @@
 """The public estimators of the BKW mode and of extinction: checked arguments, physical units."""
 
+from __future__ import annotations
+
 from kacsim import checks
 from kacsim.boltzmann import bkw, bkw_tree, mckean_tree, null_collisions
 from kacsim.boltzmann.constants import MAX_NODES

@@ -1,5 +1,7 @@
 """Any isotropic initial law at any time: the public estimators."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -8,6 +8,8 @@ d a_n / d tau = -a_n + sum over k of a_k a_(n-k) / (n + 1).
 g diverges with G at every speed. Velocities are in c_q, times in mean collision times.
 """
 
+from __future__ import annotations
+
 import functools
 import math
 

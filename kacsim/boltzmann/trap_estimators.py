@@ -1,5 +1,7 @@
 """The public estimators of the harmonic trap: Algorithms 5, 6 and 7 in physical units."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from kacsim import checks

@@ -1,5 +1,7 @@
 """The public draws of Kac's model."""
 
+from __future__ import annotations
+
 import functools
 from pathlib import Path
 

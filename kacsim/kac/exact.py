@@ -4,6 +4,8 @@ The laws at a time t are those of the paper's f0 and of uniform angles: for othe
 `kacsim.kac.reference` solves the equation, and the equilibrium is the same for any angles.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -8,6 +8,8 @@ and keeps a + (N - 1) b. Laws are the `Drawn` that the kernels draw by: nothing 
 As under eq. (8) of the Kac paper E v**2 stays, and E v**4 goes to 3 (E v**2)**2.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Any symmetric initial law on Kac's line, at any time."""
 
+from __future__ import annotations
+
 from kacsim import checks
 from kacsim.boltzmann.estimators import Estimate
 from kacsim.boltzmann.relaxation_estimators import estimate

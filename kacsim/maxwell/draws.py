@@ -1,5 +1,7 @@
 """The public draws of Maxwell molecules."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from kacsim import checks

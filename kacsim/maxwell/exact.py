@@ -5,6 +5,8 @@ Speeds are in units of the RMS velocity per axis of the equilibrium. With K = K(
 (5 K - 3) / (2 K), and otherwise has |v|**2 / K chi-squared with 5 degrees of freedom.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -4,6 +4,8 @@ Mass and Boltzmann's constant are 1: velocities on each axis have variance T abo
 are in the order of `FACES`; the cuboid reaches from -L to +L on each axis.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 

@@ -1,5 +1,7 @@
 """Integration on a lattice and with random points (worked example, Fig. 11.4, exercise 3)."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 

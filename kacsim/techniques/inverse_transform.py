@@ -1,5 +1,7 @@
 """The inverse transform: u = P(v), by a table equally spaced in u, or in closed form (11.2)."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Injection from a discrete set of weighted particles (chapter, section 11.3)."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from kacsim import checks

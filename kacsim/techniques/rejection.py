@@ -1,5 +1,7 @@
 """The rejection method under a constant and under a closer envelope (chapter, section 11.2)."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 

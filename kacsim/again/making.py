@@ -1,6 +1,7 @@
 """A file made again: samples here, everything else by the workflow in a folder of its own."""
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 from kacsim import items, plotting, store
 from kacsim.files import StoreError, replace_file
 from kacsim.jobs import sampling
+from kacsim.kac import own_tables
 from kacsim.kernels.provenance import ROOT
 from kacsim.report import csv_table, page, printing
 
@@ -80,6 +82,7 @@ def _run(order, target, scratch, cores):
     """Run the workflow for one file, with the settings of the recipe as its configuration."""
     folder = Path(scratch)
     (folder / CONFIG).write_text(json.dumps(order.plan.config), encoding="utf-8")
+    _bring_tables(order.plan.config, folder)
     command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
     command += ["--directory", str(folder), "--configfile", str(folder / CONFIG)]
     command += ["--cores", str(cores), "--quiet", "all", "--", target]
@@ -88,3 +91,13 @@ def _run(order, target, scratch, cores):
         said = "\n".join((done.stdout + done.stderr).splitlines()[-LAST:])
         raise StoreError(f"{order.path}: cannot be made again:\n{said}")
     return folder / target
+
+
+def _bring_tables(config, folder):
+    """Copy the files of densities that a configuration names to where the workflow runs."""
+    for section in config.values():
+        for value in section.values() if isinstance(section, dict) else ():
+            if own_tables.is_file(value):
+                name = own_tables.parts_of(value)[0]
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(name, folder / name)

@@ -101,10 +101,7 @@ def case_of(settings, path):
     name = given.pop("sampler", None)
     if name not in registry():
         raise StoreError(f"{path}: sampler = {name!r} in its recipe: is not one of this version")
-    for key, value in given.items():
-        if isinstance(value, str) and (Path(value).is_absolute() or ".." in Path(value).parts):
-            what = "must be a name, or a file below this folder"
-            raise StoreError(f"{path}: {key} = {value!r} in its recipe: {what}")
+    refuse_paths(given, path)
     try:
         size = {key: given.pop(key) for key in SIZE}
         shard = tuple(given.pop("shard", (1, 1)))
@@ -117,6 +114,14 @@ def case_of(settings, path):
     if problems:
         raise StoreError("\n".join(f"{path}: {one}" for one in problems))
     return case
+
+
+def refuse_paths(settings, path):
+    """Raise StoreError for a word that leads out of this folder."""
+    for key, value in settings.items():
+        if isinstance(value, str) and (Path(value).is_absolute() or ".." in Path(value).parts):
+            what = "must be a name, or a file below this folder"
+            raise StoreError(f"{path}: {key} = {value!r} in its recipe: {what}")
 
 
 def configuration(settings):
@@ -146,6 +151,9 @@ def plan_of(settings, path):
         config = configuration(settings)
     except AttributeError as error:
         raise StoreError(f"{path}: settings in its recipe: must be mappings") from error
+    for one in config.values():
+        if isinstance(one, dict):
+            refuse_paths(one, path)
     return plan.Plan(config, [path])
 
 

@@ -115,6 +115,8 @@ FOLLOWED = [
     ({"item": NAME, "settings": {"time": "$(reboot)"}}, f"{NAME}.time = '$(reboot)'"),
     ({"item": NAME, "settings": {"seed": -1}}, "seed = -1"),
     ({"settings": {"kac_fog": {}}}, "kac_fog"),
+    ({"item": "kac_own", "settings": {"initial": "/etc/a.csv"}}, "or a file below this folder"),
+    ({"item": "kac_own", "settings": {"initial": "b/../../a.csv"}}, "or a file below this folder"),
     ({"settings": {"kac_fig4": 3}}, "settings in its recipe: must be mappings"),
 ]
 
@@ -228,3 +230,17 @@ def test_foreign_and_damaged_files_get_one_line(name, content, sentence, tmp_pat
     (line,) = capsys.readouterr().err.splitlines()
     assert sentence in line
     assert str(tmp_path / "a.") in line
+
+
+def test_the_tables_of_a_configuration_come_along(tmp_path, monkeypatch):
+    """Where the workflow runs for a file they lie as they do here."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine/f.csv").write_text("x,density\n0,1\n1,1\n")
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    config = {"seed": 1, "kac_own": {"initial": "mine/f.csv@0123456789ab", "scattering": "forward"}}
+    making._bring_tables(config, scratch)
+    found = [path for path in scratch.rglob("*") if path.is_file()]
+    assert found == [scratch / "mine/f.csv"]
+    assert found[0].read_text() == (tmp_path / "mine/f.csv").read_text()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kacsim import cli, files, items, plan, plotting, store
-from kacsim.again import comparing, reading
+from kacsim.again import comparing, making, reading
 from kacsim.cases import make_case
 from kacsim.jobs import sampling
 from kacsim.kernels.provenance import ROOT

@@ -93,7 +93,7 @@ SAMPLES = [
     ("kacsim/kac/constants.py", "RATE = math.sqrt(math.pi) / 2", "RATE = 1.0",
      ["kac-bird", "kac-poisson", "kac-probe"], ["kac-equilibrium", "kac-corners", "bkw", "trap"]),
     ("kacsim/kac/constants.py", "MEAN_ENERGY = 1.5", "MEAN_ENERGY = 1.0",
-     ["kac-equilibrium", "kac-corners"], ["kac-bird", "bkw"]),
+     ["kac-equilibrium", "kac-corners"], ["kac-poisson", "kac-nanbu", "bkw"]),
     ("kacsim/boltzmann/samplers.py", "are oversampled\", not_negative, 0.0", "are oversampled\", not_negative, 0.1",
      ["bkw-c", "bkw-fraction-c", "kac-probe"], ["trap", "kac-bird"]),
     ("kacsim/boltzmann/constants.py", "COUPLING = 3.0", "COUPLING = 2.0", ["trap"], ["bkw", "kac"]),

@@ -24,6 +24,8 @@ ASKED = {
     "kacsim.kernels.lookup._Lazy.__getattr__",
     "kacsim.kernels.lookup.named",
 }
+# What ids are made by: with another id a job has another file to read.
+NAMING = {("kacsim.kac.own_tables", "settled"), ("kacsim.kac.own_tables", "token")}
 WRITTEN = {
     "kacsim.files.check_sums",
     "kacsim.files.read_yaml",
@@ -66,7 +68,7 @@ def test_what_is_done_with_items_follows_from_their_roots(smoke_run, monkeypatch
     published = items.published()
     for name in items.NAMES:
         for phase, needed in done[name].items():
-            assert unexplained(needed, roots_of(name)[phase]) == set(), (name, phase)
+            assert unexplained(needed, roots_of(name)[phase]) <= NAMING, (name, phase)
             asked = {one for one in needed["called"] if not one.startswith(CHECKS)}
             assert asked <= ASKED, (name, phase)
             assert needed["opened"] == set(), (name, phase)

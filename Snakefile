@@ -4,6 +4,8 @@
 #   results/datasets/{item}.nc              what one published item needs, with its errors
 #   results/figures/{item}.{png,svg,pdf}    its figure; .csv: the numbers behind it,
 #                                           .csv-metadata.json: what they are
+#                                           .marks.json: the values behind its marks
+#   results/page/                           the kernels that the page runs itself
 #   results/report/report.html              everything, with the verdicts; .pdf: printed
 #   results/report/runtime.html             how long the jobs took
 #
@@ -18,7 +20,7 @@ from pathlib import Path
 sys.path.insert(0, str(workflow.current_basedir))
 
 from kacsim import items, plan
-from kacsim.jobs import client, console, labels, server, stages
+from kacsim.jobs import client, console, labels, remaining, server, stages
 from kacsim.kernels.provenance import ROOT
 from kacsim.report import browser
 
@@ -37,6 +39,7 @@ SERVED = os.environ.pop(client.ADDRESS, None) != "off" and workflow.local_exec
 
 START = time.time()
 FORMATS = ("svg", "png", "pdf", "csv")
+BESIDE = ("csv-metadata.json", "marks.json", "sha256")  # what comes with them
 # Where no Chromium is installed there is no PDF to make; the run says so at its end.
 PRINTED = ["results/report/report.pdf"] if browser.find() else []
 # Messages name the last file that sets a key; those of the command line come last.
@@ -44,16 +47,19 @@ CONFIG_FILES = sorted(
     workflow.configfiles, key=lambda file: file != ROOT / "config/config.yaml"
 )
 
-if workflow.is_main_process and not workflow.output_settings.dryrun:
-    console.quieten(
-        logger, [str(file) for file in CONFIG_FILES[1:]], ("all", *items.NAMES)
-    )
-
 try:
     the_plan = plan.Plan(config, CONFIG_FILES, workflow.config_settings.config)
 except plan.PlanError as error:
     print(error, file=sys.stderr)
     sys.exit(2)
+
+if workflow.is_main_process and not workflow.output_settings.dryrun:
+    console.quieten(
+        logger,
+        [str(file) for file in CONFIG_FILES[1:]],
+        ("all", *items.NAMES),
+        remaining.Remaining(remaining.weights(the_plan), workflow.cores),
+    )
 
 
 wildcard_constraints:

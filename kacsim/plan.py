@@ -19,7 +19,9 @@ from kacsim.kernels.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
 REPORT_FILES = (
-    *("report.html.j2", "style.css", "captions.yaml", "errata.yaml"),
+    *("report.html.j2", "lab.html.j2", "style.css"),
+    *("captions.yaml", "errata.yaml", "findings.yaml", "glossary.yaml"),
+    *(f"scripts/{path.name}" for path in sorted((ROOT / "reports" / "scripts").glob("*.js"))),
     *(f"published/{path.name}" for path in items.PUBLISHED),
     *(f"inventory/{path.name}" for path in sorted((ROOT / "reports" / "inventory").glob("*.yaml"))),
     *(path.name for path in (ROOT / "reports").glob("registered.yaml")),

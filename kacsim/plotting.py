@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib import patheffects, ticker
 from matplotlib.figure import Figure
 
+from kacsim import marks
 from kacsim.files import replace_file
 from kacsim.kernels.lookup import lazy
 from kacsim.recipes.carriers import FIELD
@@ -203,6 +204,8 @@ def save(figure, path, recipe=None):
     if figure.get_layout_engine() is not None:  # all formats share one layout, made once
         figure.get_layout_engine().execute(figure)
         figure.set_layout_engine(None)
+    if suffix == "svg":
+        marks.named(figure)
     fonttype = getattr(figure, "svg_fonttype", STYLE["svg.fonttype"])
     with matplotlib.rc_context({"svg.fonttype": fonttype}):
         replace_file(path, lambda name: figure.savefig(name, format=suffix, metadata=metadata))

@@ -56,7 +56,8 @@ def _make_report(order, output, report):
     """Write the page of a run with the command that the first one tells, and print it."""
     results = report.parent.parent
     folders = results / "datasets", results / "figures"
-    page.write(items.NAMES, *folders, report, order.recipe.options)
+    own = results / "page" / "kernels.wasm", results / "page" / "draws.json"
+    page.write(items.NAMES, *folders, report, order.recipe.options, *own)
     if output.suffix == ".html":
         _copy(report, output)
         return

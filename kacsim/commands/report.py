@@ -12,6 +12,8 @@ def add(parser):
     parser.add_argument("--figures", default="results/figures", metavar="FOLDER")
     parser.add_argument("--items", nargs="+", required=True)
     parser.add_argument("--output", required=True)
+    parser.add_argument("--kernels", metavar="FILE", help="of `kacsim wasm`: the page draws itself")
+    parser.add_argument("--draws", metavar="FILE", help="of `kacsim wasm`, with the kernels")
     parser.add_argument("--options", default="", help="of the command on the page")
 
 
@@ -22,4 +24,5 @@ def run(arguments):
     for name in arguments.items:
         _shared.known_item(name)
     folders = arguments.datasets, arguments.figures
-    page.write(arguments.items, *folders, arguments.output, arguments.options)
+    own = arguments.kernels, arguments.draws
+    page.write(arguments.items, *folders, arguments.output, arguments.options, *own)

@@ -13,7 +13,7 @@ CHATTER += ("Elapsed time", "Assuming unrestricted", "Using workflow specific pr
 CHATTER += ("RuleException",)  # the whole shell command; the failed job's lines say more
 
 
-def quieten(logger, config_files, targets):
+def quieten(logger, config_files, targets, remaining):
     """Let the terminal of a real run show one line per job; the log file keeps everything.
 
     Parameters
@@ -21,15 +21,18 @@ def quieten(logger, config_files, targets):
     logger : logging.Logger of Snakemake
     config_files : list of str, given on the command line; part of the command that repeats a job
     targets : names of the rules that only stand for files
+    remaining : kacsim.jobs.remaining.Remaining
     """
     for handler in logger.handlers:
         if handler.name == "DefaultStreamHandler":
-            handler.setFormatter(OneLine(handler.formatter, config_files, set(targets)))
-            handler.addFilter(_is_wanted)
+            handler.setFormatter(OneLine(handler.formatter, config_files, set(targets), remaining))
+            handler.addFilter(lambda record: _is_wanted(record, remaining))
 
 
-def _is_wanted(record):
+def _is_wanted(record, remaining):
     event = getattr(record, "event", None)
+    if event is LogEvent.JOB_FINISHED:
+        remaining.finish(record.job_id)
     if event in HIDDEN:
         return False
     if event is LogEvent.JOB_INFO:
@@ -43,11 +46,12 @@ class OneLine(logging.Formatter):
     Parameters
     ----------
     other : logging.Formatter
-    config_files, targets : as `quieten`
+    config_files, targets, remaining : as `quieten`
     """
 
-    def __init__(self, other, config_files, targets):
+    def __init__(self, other, config_files, targets, remaining):
         super().__init__()
+        self.remaining = remaining
         self.other, self.config_files, self.targets = other, config_files, targets
         self.started = self.total = 0
 
@@ -57,10 +61,12 @@ class OneLine(logging.Formatter):
         if event is LogEvent.RUN_INFO:
             counted = set(record.stats) - {"total"} - self.targets
             self.total = sum(int(record.stats[rule]) for rule in counted)
+            self.remaining.plan({rule: record.stats[rule] for rule in counted})
             return f"{self.total} jobs to do"
         if event is LogEvent.JOB_INFO:
             self.started += 1
-            return f"[{self.started}/{self.total}] {record.rule_msg}"
+            self.remaining.start(record.jobid, record.rule_name)
+            return f"[{self.started}/{self.total}, {self.remaining.text()}] {record.rule_msg}"
         if event is LogEvent.JOB_ERROR:
             return self._failure(record)
         return self.other.format(record)

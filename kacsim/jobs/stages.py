@@ -3,13 +3,16 @@
 import json
 
 from kacsim import items
+from kacsim.kac.samplers import ALGORITHMS
 from kacsim.kernels import sources
 
 WRITERS = (
+    ("kacsim.marks", "write"),
     ("kacsim.plotting", "save"),
     ("kacsim.recipes.lines", "of_figure"),
     ("kacsim.report.csv_table", "write"),
 )
+LOOKED_UP = ("ancestral", "arguments")  # of an algorithm, by `kacsim.wasm`
 
 
 def sample_roots(case):
@@ -38,6 +41,18 @@ def draw_roots(name):
 def page_roots(module):
     """Return (module, name) of what writes the report, its print or the page of run times."""
     return ((f"kacsim.report.{module}", "write"),)
+
+
+def wasm_roots():
+    """Return (module, name) of what compiles the kernels of the page and draws by them."""
+    looked_up = ((f"kacsim.kac.{name}", part) for name in ALGORITHMS for part in LOOKED_UP)
+    return (
+        ("kacsim.wasm.building", "SETTINGS"),
+        ("kacsim.wasm.entries", "entries"),
+        ("kacsim.wasm.module", "built"),
+        ("kacsim.wasm.stored", "content"),
+        *looked_up,
+    )
 
 
 def code(roots):

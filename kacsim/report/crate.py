@@ -13,7 +13,7 @@ from kacsim import files
 from kacsim.kernels import provenance
 from kacsim.kernels.provenance import ROOT
 from kacsim.recipes import carriers
-from kacsim.report.page import read_text
+from kacsim.report.texts import read_text
 
 VERSION = "1.1"  # of RO-Crate, which these profiles are made for
 PROFILES = ("process/0.5", "workflow/0.5")

@@ -10,7 +10,8 @@ from pathlib import Path
 from kacsim import files, store
 from kacsim.cases import tiny_cases
 from kacsim.kernels import sources
-from kacsim.report.page import read_text, without_files
+from kacsim.report.page import without_files
+from kacsim.report.texts import read_text
 
 LARGEST_REPORT = 8_000_000  # bytes
 REPORT, FACTS = "report.html", "kept.json"

@@ -15,8 +15,11 @@ LABEL = (
 )
 
 
-def drawn(datasets):
-    """Return the picture of all tables of claims as markup, None if there is none."""
+def drawn(datasets, shared):
+    """Return the picture of all tables of claims as markup, None if there is none.
+
+    Its letters are added to `shared`, as of `kacsim.report.svg.inline`.
+    """
     tables = [dataset for dataset in datasets if "claim" in dataset]
     if not tables:
         return None
@@ -24,4 +27,4 @@ def drawn(datasets):
     text = io.StringIO()
     with matplotlib.rc_context({"svg.fonttype": figure.svg_fonttype}):
         figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
-    return svg.inline(text.getvalue(), "overview", "overview", LABEL)[0]
+    return svg.inline(text.getvalue(), "overview", "overview", LABEL, shared)[0]

@@ -13,23 +13,31 @@ from pathlib import Path
 from urllib.parse import quote
 
 import jinja2
-import numpy as np
 import yaml
 from markupsafe import Markup
 
 from kacsim import files, store
 from kacsim.boltzmann import bkw
 from kacsim.items import published
-from kacsim.kernels.provenance import ROOT
-from kacsim.report import inventory, overview, registered, svg, verdicts
-from kacsim.report.numbers import bound, listed, measured, number, pm, subscripted
+from kacsim.report import (
+    figures,
+    findings,
+    glossary,
+    inventory,
+    overview,
+    registered,
+    scripts,
+    svg,
+    verdicts,
+)
+from kacsim.report.numbers import bound, listed, number, pm, subscripted
+from kacsim.report.texts import TEXTS, read_text
 from kacsim.statistics.verdict import MISSED
 
-TEXTS = ROOT / "reports"
 FORMATS = ("svg", "png", "pdf")  # every figure is drawn in all of them
 
 
-def write(items, datasets_folder, figures_folder, output, options=""):
+def write(items, datasets_folder, figures_folder, output, options="", kernels=None, draws=None):
     """Write the report of some items, in the given order, to the file `output`.
 
     Parameters
@@ -39,6 +47,7 @@ def write(items, datasets_folder, figures_folder, output, options=""):
     output : file to create or replace
     options : of the ``snakemake`` command that makes the results again; those of a run with other
         values than the project's own, which the page then says
+    kernels, draws : files of ``kacsim wasm``; without them the page draws nothing itself
 
     Raises
     ------
@@ -50,19 +59,26 @@ def write(items, datasets_folder, figures_folder, output, options=""):
     env, folder = environment(), Path(output).parent
     claims = verdicts.rows(datasets.values(), published())
     captions = yaml.safe_load(read_text(TEXTS / "captions.yaml"))
-    shown = []
+    render, shared, shown = functools.partial(_rendered, env), svg.Shared(), []
     for name in items:
         if name not in captions:
             raise files.StoreError(f"{TEXTS / 'captions.yaml'}: has no entry {name}")
         figure = Path(figures_folder) / f"{name}.svg"
         if figure.with_suffix(".sha256").exists():
             files.check_sums(figure.with_suffix(".sha256"))
-        item = _item(env, name, datasets[name], captions[name], figure)
+        item = figures.item(render, name, datasets[name], captions[name], figure, shared)
         item["claims"] = [row for row in claims.values() if row["item"] == name]
+        item["printed"] = [row for row in item["claims"] if row["printed"]]
         item["dataset_link"] = _link(paths[name], folder)
         item["links"] = {f: _link(figure.with_suffix(f".{f}"), folder) for f in FORMATS}
         item["numbers_link"] = _link(figure.with_suffix(".csv"), folder)
         shown.append(item)
+    terms = glossary.read(TEXTS / "glossary.yaml")
+    for item, before, after in zip(shown, [None, *shown], [*shown[1:], None], strict=False):
+        item |= {"before": before, "after": after}
+        item["caption"] = glossary.linked(item["caption"], terms)
+    raw = verdicts.components(datasets.values())
+    settings = {name: dataset.attrs["settings"] for name, dataset in datasets.items()}
     html = env.get_template("report.html.j2").render(
         style=Markup(read_text(TEXTS / "style.css")),
         texts=_sections(env, datasets, claims, shown),
@@ -70,7 +86,16 @@ def write(items, datasets_folder, figures_folder, output, options=""):
         claims=claims,
         kinds=verdicts.counted(claims),
         inventory=inventory.entries(TEXTS / "inventory", claims, items),
-        overview=overview.drawn(datasets.values()),
+        overview=overview.drawn(datasets.values(), shared),
+        findings=findings.shown(
+            read_text(TEXTS / "findings.yaml"), claims, raw, settings, published(), render
+        ),
+        ranked=findings.RANKED,
+        glossary=terms,
+        letters=shared.markup(),
+        marks=scripts.as_json({item["name"]: item["marks"] for item in shown if item["marks"]}),
+        scripts=scripts.page(),
+        lab=_lab(kernels, draws, raw, settings, datasets),
         intervals=_intervals(datasets),
         registered=_registered(datasets, options),
         sources=sorted({dataset.attrs["source"] for dataset in datasets.values()}),
@@ -108,14 +133,6 @@ def _rendered(env, text, **words):
     return Markup(bound(env.from_string(text).render(words)).strip())
 
 
-def read_text(path):
-    """Return the text of a file; StoreError names one that cannot be read."""
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise files.StoreError(f"{path}: cannot be read: {error}") from error
-
-
 def _link(path, folder):
     """Return a file's address relative to the folder of the report."""
     return quote(Path(os.path.relpath(path, folder)).as_posix())
@@ -128,6 +145,14 @@ def _configuration(datasets):
         one.pop("items", None)
     text = json.dumps(settings, indent=2, sort_keys=True)
     return re.sub(r"\[[^]]*\]", lambda found: " ".join(found[0].split()), text)
+
+
+def _lab(kernels, draws, raw, settings, datasets):
+    """Return what the part that draws needs, None without its files."""
+    if kernels is None:
+        return None
+    narrowed = findings.narrowed(raw, settings, _intervals(datasets))
+    return scripts.lab(Path(kernels), Path(draws), narrowed)
 
 
 def _intervals(datasets):
@@ -148,46 +173,6 @@ def _registered(datasets, options):
     if known is None:
         return None
     return {"commit": known["commit"], "changes": registered.changes(datasets, known)}
-
-
-# Items and texts
-
-
-def _item(env, name, dataset, texts, figure):
-    """Return what the page shows of one item: rendered texts, figure and facts."""
-    s, known = dataset.attrs["settings"], dataset.attrs["published"]
-    words = {"s": s, "d": dataset, "published": known}
-    words["measured"] = functools.partial(measured, dataset)
-    parts = {key: _rendered(env, text, **words) for key, text in texts.items()}
-    alt = " ".join(parts["alt"].striptags().split())
-    drawn, box = svg.inline(read_text(figure), figure, name, f"{parts['label']}. {alt}")
-    own = {"name": name, "svg": drawn, "box": box, "settings": s, "tvn": _tvn_table(dataset)}
-    if "engine" not in parts:
-        own["engine"] = s["engine"]
-    if "draws" not in parts:
-        many = f"{number(s['n_replicates'])} replicates of " if s["n_replicates"] > 1 else ""
-        own["draws"] = f"{many}{number(s['n_draws'])} draws"
-    return parts | own
-
-
-def _tvn_table(dataset):
-    """Return the mean TVN at every bin width and place, None if the item has none."""
-    if "tvn" not in dataset or "bin_width" not in dataset.tvn.dims:
-        return None
-    dataset = dataset.sortby("bin_width")
-    *dims, _ = dataset.tvn.dims
-    rows = []
-    for place in np.ndindex(dataset.tvn.shape[:-1]):
-        heads = [dataset[dim].values[k] for dim, k in zip(dims, place, strict=True)]
-        heads = [h.replace("_", " ") if isinstance(h, str) else number(h) for h in heads]
-        values, errors = dataset.tvn.values[place], dataset.tvn_error.values[place]
-        rows.append((heads, [pm(v, e) for v, e in zip(values, errors, strict=True)]))
-    return {
-        "dims": [dim.replace("n_particles", "N").replace("_", " ") for dim in dims],
-        "widths": [number(width) for width in dataset.bin_width.values],
-        "rows": rows,
-        "floor": [number(value, 3) for value in dataset.floor.values],
-    }
 
 
 def _sections(env, datasets, claims, shown):

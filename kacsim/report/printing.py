@@ -9,7 +9,8 @@ from pathlib import Path
 from kacsim.files import StoreError, replace_file
 from kacsim.recipes import carriers, lines
 from kacsim.report import browser
-from kacsim.report.page import read_text, without_files
+from kacsim.report.page import without_files
+from kacsim.report.texts import read_text
 
 # Nothing is asked of the network, and a page printed as root runs without Chromium's own sandbox.
 QUIET = (

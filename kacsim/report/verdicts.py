@@ -32,6 +32,15 @@ def rows(datasets, entries):
     return found
 
 
+def components(datasets):
+    """Return claim id -> list of its components, dicts of numbers as the datasets hold them."""
+    found = {}
+    for dataset in datasets:
+        for part in _columns(dataset, "part") if "claim" in dataset else ():
+            found.setdefault(part["of"], []).append(part)
+    return found
+
+
 def _columns(dataset, dim):
     """Return the table along a dimension as a list of dicts."""
     names = [name for name in dataset.data_vars if dataset[name].dims == (dim,)]
@@ -52,6 +61,7 @@ def _worded(row, entry, parts):
         "source": source,
         "reason": bound(typeset(entry["reason"])),
         "rule": entry["rule"],
+        "printed": entry.get("printed", ""),
         "parts": parts,
         "shown": next((part for part in parts if part["verdict"] == row["verdict"]), None),
         "summary": f"{len(parts)} components: {', '.join(counts)}" if len(parts) > 1 else "",

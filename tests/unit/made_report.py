@@ -24,14 +24,19 @@ class Page(HTMLParser):
 
     def __init__(self, html):
         super().__init__()
-        self.tags, self.text = [], ""
+        self.tags, self.text, self.within = [], "", ""
         self.feed(html)
 
     def handle_starttag(self, tag, attrs):
         self.tags.append((tag, dict(attrs)))
+        self.within = tag
 
     def handle_data(self, data):
-        self.text += " " + data
+        if self.within != "script":
+            self.text += " " + data
+
+    def handle_endtag(self, tag):
+        self.within = ""
 
     def all(self, *names):
         return [attrs for tag, attrs in self.tags if tag in names]

@@ -15,7 +15,7 @@ rule draw:
         ),
         expand(
             "results/figures/{{item}}.{format}",
-            format=(*FORMATS[1:], "csv-metadata.json", "sha256"),
+            format=(*FORMATS[1:], *BESIDE),
         ),
     log:
         "logs/draw/{item}.log",

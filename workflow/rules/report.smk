@@ -5,6 +5,28 @@ own_files = [file for file in CONFIG_FILES if file != ROOT / "config/config.yaml
 OPTIONS = plan.recipe_options(own_files, workflow.config_settings.config)
 
 
+rule page_kernels:
+    """Compile the kernels that the page runs itself, and draw what it compares them with."""
+    output:
+        kernels="results/page/kernels.wasm",
+        draws="results/page/draws.json",
+    log:
+        "logs/compile/page.log",
+    benchmark:
+        "benchmarks/compile/page.tsv"
+    priority: 998
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        code=stages.code(stages.wasm_roots()),
+    message:
+        "Compiling the kernels of the page"
+    shell:
+        "kacsim wasm --module {output.kernels} --draws {output.draws} > {log} 2>&1"
+
+
 rule report:
     """Write one HTML file with every figure, every number and every verdict."""
     input:
@@ -12,8 +34,10 @@ rule report:
         figures=expand(
             "results/figures/{item}.{format}",
             item=items.NAMES,
-            format=(*FORMATS, "sha256"),
+            format=(*FORMATS, "marks.json", "sha256"),
         ),
+        kernels="results/page/kernels.wasm",
+        draws="results/page/draws.json",
         texts=[ROOT / "reports" / name for name in plan.REPORT_FILES],
     output:
         report(
@@ -39,6 +63,7 @@ rule report:
     shell:
         "kacsim report --items {params.wanted} --datasets results/datasets"
         " --figures results/figures --options={params.options:q} --output {output}"
+        " --kernels {input.kernels} --draws {input.draws}"
         " > {log} 2>&1"
 
 

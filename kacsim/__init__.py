@@ -2,7 +2,7 @@
 
 import lazy_loader
 
-__version__ = "0.4.0"
+__version__ = "0.5.0"
 
 # Loaded at first use, so that planning stays light.
 __getattr__, __dir__, __all__ = lazy_loader.attach(

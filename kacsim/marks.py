@@ -48,8 +48,8 @@ def named(figure):
             continue
         own = []
         for artists, one in _series(axes):
-            for artist in artists:
-                artist.set_gid(f"mark-{number}")
+            for k, artist in enumerate(artists):
+                artist.set_gid(f"mark-{number}-{k}" if k else f"mark-{number}")
             own.append({"id": f"mark-{number}"} | one)
             number += 1
         if own:
@@ -133,17 +133,22 @@ def _values(kind, label, x, y):
 
 
 def _with_bars(line, bars, label):
+    """Return points with the ends of their upright bars; a point without a value has none."""
     found = _values("points", label, *line.get_data(orig=False))
+    low, high = np.full((2, found["x"].size), np.nan)
     for collection in bars:
-        ends = np.array([part for part in collection.get_segments() if len(part) == 2])
-        upright = ends.ndim == 3 and len(ends) == len(found["x"])
-        if upright and np.allclose(ends[:, 0, 0], ends[:, 1, 0]):
-            low, high = ends[:, :, 1].min(axis=1), ends[:, :, 1].max(axis=1)
-            below, above = found["y"] - low, high - found["y"]
-            if np.allclose(below, above, rtol=1e-6, atol=0.0):
-                return found | {"error": 0.5 * (below + above)}
-            return found | {"low": low, "high": high}
-    return found
+        for ends in collection.get_segments():
+            if len(ends) == 2 and ends[0, 0] == ends[1, 0]:
+                bottom, top = sorted(ends[:, 1])
+                here = (found["x"] == ends[0, 0]) & (bottom <= found["y"]) & (found["y"] <= top)
+                free = np.flatnonzero(here & np.isnan(low))
+                low[free[:1]], high[free[:1]] = bottom, top
+    if np.isnan(low).all():
+        return found
+    below, above = found["y"] - low, high - found["y"]
+    if np.allclose(below, above, rtol=1e-6, atol=0.0, equal_nan=True):
+        return found | {"error": 0.5 * (below + above)}
+    return found | {"low": low, "high": high}
 
 
 def _short(series):

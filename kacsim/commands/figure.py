@@ -1,5 +1,7 @@
 """Draw a figure for a journal's column or page, or for a talk."""
 
+import warnings
+
 from kacsim.commands import _shared
 
 EXAMPLE = "figure kac_fig4 --style column --output fig4.pdf"
@@ -31,4 +33,10 @@ def run(arguments):
     recipe = lines.of_figure(dataset, stages.code(stages.draw_roots(arguments.item)))
     figure = module.draw(dataset)
     formats.fit(figure, arguments.style)
-    plotting.save(figure, arguments.output, recipe)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", "constrained_layout not applied")
+        try:
+            plotting.save(figure, arguments.output, recipe)
+        except UserWarning as error:
+            sentence = f"--style = {arguments.style!r}: {arguments.item} does not fit; take page"
+            raise files.StoreError(sentence) from error

@@ -160,7 +160,7 @@ def draw(dataset, row_height=0.34, *, words=True):
     heights = [0.5 + row_height * len(rows) for rows in bands.values()]
     figure, axes = plotting.stack([*heights, 2.4], width=9.0)
     for axis, (band, rows) in zip(axes, bands.items(), strict=False):
-        _band(axis, dataset, band, rows, 4.0 if words else 2.0)
+        _band(axis, dataset, band, rows, 4.0 if words else 2.0, linked=not words)
         if words:
             texts = [textwrap.fill(str(dataset.text.values[k]), 74) for k in rows]
             axis.set_yticks(range(len(rows)), texts)
@@ -200,7 +200,7 @@ def in_units(part):
     return (values - (low + high) / 2.0) / ((high - low) / 2.0 or 1.0)
 
 
-def _band(axis, dataset, band, rows, size):
+def _band(axis, dataset, band, rows, size, linked):
     one_sided = band[0] == "one-sided"
     ends = (-REACH, 2.0 * REACH) if one_sided else (-REACH, REACH)
     axis.axvspan(*((1.0, ends[1]) if one_sided else (-1.0, 1.0)), color="0.93", lw=0, zorder=0)
@@ -212,7 +212,9 @@ def _band(axis, dataset, band, rows, size):
             value, low, high = np.clip(in_units(part), *ends)
             word = str(part.part_verdict.values)
             axis.plot([low, high], [place + shift] * 2, color=_style(word)[0], lw=0.3 * size)
-            _mark(axis, [value], [place + shift], word, size)
+            mark = _mark(axis, [value], [place + shift], word, size)
+            if linked:
+                mark.set_url(f"#claim-{dataset.claim.values[k]}")
     axis.set_ylim(len(rows) - 0.4, -0.6)
     axis.set_xlim(*(1.03 * end for end in ends))
     unit = "its lower end" if one_sided else "half its width, from its middle"

@@ -3,7 +3,7 @@
 import json
 
 from kacsim import items
-from kacsim.kac.samplers import ALGORITHMS
+from kacsim.kac.samplers import ON_PAGE
 from kacsim.kernels import sources
 
 WRITERS = (
@@ -45,7 +45,7 @@ def page_roots(module):
 
 def wasm_roots():
     """Return (module, name) of what compiles the kernels of the page and draws by them."""
-    looked_up = ((f"kacsim.kac.{name}", part) for name in ALGORITHMS for part in LOOKED_UP)
+    looked_up = ((f"kacsim.kac.{name}", part) for name in ON_PAGE for part in LOOKED_UP)
     return (
         ("kacsim.wasm.building", "SETTINGS"),
         ("kacsim.wasm.entries", "entries"),

@@ -69,6 +69,8 @@ VARIANTS = (
 ALGORITHMS = tuple(algorithm.name for algorithm in VARIANTS)
 TITLES = {algorithm.name: algorithm.title for algorithm in VARIANTS}
 STEPPED = tuple(algorithm.name for algorithm in VARIANTS if STEP in algorithm.parameters)
+# The page of the report draws by those whose own parameters are at most a step.
+ON_PAGE = tuple(algorithm.name for algorithm in VARIANTS if set(algorithm.parameters) <= {STEP})
 LAWS = ("initial", "scattering")
 TABLES = "own_drawn", "tables"  # what makes tables of them
 HOW_TO_DRAW = ("engine", "keep_above", *LAWS)  # no parameters of an exact moment

@@ -1,8 +1,10 @@
 """All rows of all texts in one picture, which stands above their tables."""
 
 import io
+import re
 
 import matplotlib
+from markupsafe import Markup, escape
 
 from kacsim.items import _claims
 from kacsim.report import svg
@@ -27,4 +29,22 @@ def drawn(datasets, shared):
     text = io.StringIO()
     with matplotlib.rc_context({"svg.fonttype": figure.svg_fonttype}):
         figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
-    return svg.inline(text.getvalue(), "overview", "overview", LABEL, shared)[0]
+    markup = svg.inline(text.getvalue(), "overview", "overview", LABEL, shared)[0]
+    words = {row["claim"]: f"{row['verdict']}: {row['text']}" for row in _rows(tables)}
+
+    def named(found):
+        # The tables have the same links in the order of the keyboard.
+        label = escape(words[found[1]])
+        title = f"<title>{label}</title>"
+        return f'<a href="#claim-{found[1]}" tabindex="-1" aria-label="{label}">{title}'
+
+    linked = re.sub(r'<a href="#claim-(\w+)">', named, markup)
+    return Markup(linked.replace('role="img"', 'role="group"', 1))
+
+
+def _rows(tables):
+    """Yield claim, verdict and text of every row."""
+    for dataset in tables:
+        columns = (dataset[name].values for name in ("claim", "verdict", "text"))
+        for claim, verdict, text in zip(*columns, strict=True):
+            yield {"claim": claim, "verdict": verdict, "text": text}

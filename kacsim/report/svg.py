@@ -10,7 +10,7 @@ from kacsim import files
 
 PLACES = 2  # of coordinates: a hundredth of a point is nothing on any screen
 ROUNDED = ("d", "x", "y", "x1", "x2", "y1", "y2", "points", "width", "height")
-KEPT = re.compile(r"mark-\d+|figure_1")  # ids that the page looks for
+KEPT = re.compile(r"mark-[-\d]+|figure_1")  # ids that the page looks for
 
 
 @dataclass
@@ -71,14 +71,16 @@ def inline(text, path, prefix, label, shared):
         for key in list(element.attrib):
             element.set(_local(key), " ".join(element.attrib.pop(key).split()))
     _share(root, shared.letters)
-    new = {name: shared.new_id() for name in sorted(_referred(root)) if name not in shared.letters}
-    new |= {name: f"{prefix}-{name}" for name in _ids(root) if KEPT.fullmatch(name)}
+    own = set(_ids(root))
+    new = {name: shared.new_id() for name in sorted(_referred(root) & own)}
+    new |= {name: f"{prefix}-{name}" for name in own if KEPT.fullmatch(name)}
     for element in root.iter():
+        element.attrib.pop("target", None)  # of a link
         for key, value in list(element.attrib.items()):
             element.set(key, _placed(key, value, new))
-        own = element.attrib.pop("id", None)
-        if own in new:
-            element.set("id", new[own])
+        name = element.attrib.pop("id", None)
+        if name in new:
+            element.set("id", new[name])
     _unwrap(root)
     _hoist(root)
     box = root.get("viewBox")

@@ -96,7 +96,7 @@ def entries():
     """Return name -> (function, types of its arguments) of all that the page calls."""
     found = {
         f"kac_{name}": (kac_entry(name), (*ARRAYS, types.Tuple(kac_types(name))))
-        for name in samplers.ALGORITHMS
+        for name in samplers.ON_PAGE
     }
     numbers = (types.int64, types.float64, types.float64)
     return found | {

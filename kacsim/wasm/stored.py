@@ -35,12 +35,12 @@ def kac_stream(algorithm):
 
 def content():
     """Return all of it, ready for JSON."""
-    names = [*map(kac_stream, samplers.ALGORITHMS), BKW_STREAM, PERFECT_STREAM]
+    names = [*map(kac_stream, samplers.ON_PAGE), BKW_STREAM, PERFECT_STREAM]
     return {
         "rate": RATE,
         "most_ancestors": MOST_ANCESTORS,
         "least_tolerance": RELATIVE_TOLERANCE,
-        "algorithms": samplers.TITLES,
+        "algorithms": {name: samplers.TITLES[name] for name in samplers.ON_PAGE},
         "stepped": list(samplers.STEPPED),
         "streams": {name: name_words(name) for name in names},
         "checks": checks(),
@@ -55,7 +55,7 @@ def name_words(name):
 
 def checks():
     """Return draws with what they were drawn by, those of every kernel."""
-    found = [_kac(name, n, time) for name in samplers.ALGORITHMS for n, time in PROCESSES]
+    found = [_kac(name, n, time) for name in samplers.ON_PAGE for n, time in PROCESSES]
     size = {"n_draws": N_DRAWS, "seed": 2**40 + 7}
     for given in ({"n_particles": 3, "tolerance": 1e-6}, {"n_particles": 10, "tolerance": 1e-3}):
         values, _ = kac.draw_equilibrium(**given, **size)

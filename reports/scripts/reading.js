@@ -31,7 +31,7 @@ class Reading {
   // The parts of the figure that show a series.
   elements(id) {
     const own = `${this.figure.dataset.item}-${id}`;
-    return [...this.svg.querySelectorAll(`[id="${own}"]`)];
+    return [...this.svg.querySelectorAll(`[id="${own}"], [id^="${own}-"]`)];
   }
 
   point(event) {

@@ -1,21 +1,16 @@
 """The report in a real browser: Debian's Chromium, driven by Playwright, asked by axe-core.
 
-KACSIM_TEST_RESULTS names the results of a finished run; without it, they are the smoke run's.
-KACSIM_AXE names axe.min.js; without it, ``npm ci`` in this folder is where it is looked for.
+What the page does when one uses it is in the other files of this folder.
 """
 
-import os
 import re
-from pathlib import Path
 
 import pytest
 from page_checks import PAPER_WIDTH, Visit
 
-from kacsim.report import browser, printing
 from kacsim.report import page as report
+from kacsim.report import printing
 
-HERE = Path(__file__).resolve().parent
-GIVEN = os.environ.get("KACSIM_TEST_RESULTS")
 VIEWS = {
     "wide": {"width": 1200},
     "narrow": {"width": 380},
@@ -30,41 +25,6 @@ BAD = """<!DOCTYPE html><html lang="en"><head><title>Bad</title></head><body><ma
 <div style="width: 2000px">wide</div>
 <figure style="background: #111; height: 2000px"><svg role="img" aria-label="dark"></svg></figure>
 <script>console.error("broken")</script></main></body></html>"""
-
-
-@pytest.fixture(scope="session")
-def chromium():
-    sync_api = pytest.importorskip("playwright.sync_api")
-    path = browser.find()
-    if path is None:
-        pytest.skip(browser.NONE)
-    with sync_api.sync_playwright() as driver:
-        running = driver.chromium.launch(executable_path=path, args=["--no-sandbox"])
-        yield running
-        running.close()
-
-
-@pytest.fixture(scope="session")
-def axe():
-    path = Path(os.environ.get("KACSIM_AXE") or HERE / "node_modules/axe-core/axe.min.js")
-    if not path.is_file():
-        pytest.skip(f"no axe-core at {path}: run `npm ci` in tests/browser, or set KACSIM_AXE")
-    return path
-
-
-if GIVEN:
-
-    @pytest.fixture(scope="session")
-    def results(chromium):
-        """Return the results of the run that is named."""
-        return Path(GIVEN).resolve()
-
-else:
-
-    @pytest.fixture(scope="session")
-    def results(chromium, smoke_run):
-        """Return the results of the smoke run."""
-        return smoke_run / "results"
 
 
 @pytest.fixture(

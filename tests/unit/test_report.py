@@ -132,7 +132,9 @@ def test_tables_and_figures_are_labelled(html):
     page = Page(html)
     assert len(page.all("table")) == len(page.all("caption")) > 0
     assert all(attrs.get("scope") in ("col", "row", "rowgroup") for attrs in page.all("th"))
-    assert all(attrs.get("role") == "img" or "aria-hidden" in attrs for attrs in page.all("svg"))
+    assert all(
+        attrs.get("role") in ("img", "group") or "aria-hidden" in attrs for attrs in page.all("svg")
+    )
     assert 'Fig. 4. TVN 0.0200 ± 0.0010 or "so"' in [a.get("aria-label") for a in page.all("svg")]
     regions = [attrs for _, attrs in page.tags if "scroll" in (attrs.get("class") or "").split()]
     assert regions

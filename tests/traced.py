@@ -111,7 +111,7 @@ class Entry(dict):
 
 def writers(trace, name, results):
     """Write the figure of an item and the numbers behind it."""
-    from kacsim import items, plotting, store
+    from kacsim import items, marks, plotting, store
     from kacsim.recipes import lines
     from kacsim.report import csv_table
 
@@ -122,6 +122,7 @@ def writers(trace, name, results):
         for suffix in ("svg", "png", "pdf"):
             plotting.save(figure, f"{folder}/figure.{suffix}", recipe)
         csv_table.write(dataset, f"{folder}/figure.csv", recipe)
+        marks.write(figure, f"{folder}/figure.marks.json")
 
 
 def pages(trace, results):
@@ -134,7 +135,8 @@ def pages(trace, results):
         browser, html = printer.browser(Path(folder) / "bin"), f"{folder}/report.html"
         shown = items.NAMES
         with trace.running("page"):
-            page.write(shown, results / "datasets", results / "figures", html)
+            own = results / "page/kernels.wasm", results / "page/draws.json"
+            page.write(shown, results / "datasets", results / "figures", html, "", *own)
         with trace.running("printing"):
             printing.write(html, f"{folder}/report.pdf", str(browser))
         with trace.running("runtime"):

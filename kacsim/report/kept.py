@@ -13,7 +13,7 @@ from kacsim.kernels import sources
 from kacsim.report.page import without_files
 from kacsim.report.texts import read_text
 
-LARGEST_REPORT = 8_000_000  # bytes
+LARGEST_REPORT = 6_000_000  # bytes
 REPORT, FACTS = "report.html", "kept.json"
 
 

@@ -142,9 +142,14 @@ function unfold(button) {
     const cell = detail.insertCell();
     cell.colSpan = 7;
     const evidence = document.getElementById(`claim-${row.dataset.claim}`);
-    for (const small of evidence.querySelectorAll("small")) {
+    for (const small of evidence.querySelectorAll("th small")) {
       const text = document.createElement("p");
       text.innerHTML = small.innerHTML;
+      cell.append(text);
+    }
+    for (let part = evidence.nextElementSibling; part?.className === "component"; part = part.nextElementSibling) {
+      const text = document.createElement("p");
+      text.textContent = [...part.cells].map((one) => one.textContent.trim().replace(/\s+/g, " ")).join("; ");
       cell.append(text);
     }
     const command = evidence.closest("article").querySelector(".facts div:last-child code");

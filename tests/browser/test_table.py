@@ -112,6 +112,23 @@ def test_a_row_unfolds_to_its_evidence_by_the_keyboard(opened):
     assert not detail.is_visible()
 
 
+def test_a_row_of_several_components_unfolds_to_all_of_them(opened):
+    page = opened()
+    page.click("#row-kac_fig3_poisson_bird .unfold")
+    text = page.inner_text("#row-kac_fig3_poisson_bird + tr.detail")
+    labels = page.eval_on_selector(
+        "#claim-kac_fig3_poisson_bird",
+        """row => {
+          const found = [];
+          for (let one = row.nextElementSibling; one?.className === 'component';
+               one = one.nextElementSibling) found.push(one.cells[1].textContent.trim());
+          return found;
+        }""",
+    )
+    assert len(labels) > 1
+    assert all(f"; {label}; " in text for label in labels)
+
+
 def test_without_javascript_the_table_is_whole(chromium, report):
     page = chromium.new_page(java_script_enabled=False)
     page.goto(report)

@@ -10,6 +10,7 @@ import sys
 import pytest
 
 from kacsim import cli, kac
+from kacsim.files import StoreError
 from kacsim.kernels.provenance import ROOT
 from kacsim.wasm import building, sections, stored
 
@@ -98,3 +99,31 @@ def test_an_output_that_cannot_be_written_is_said_before_any_work(tmp_path, caps
     (line,) = capsys.readouterr().err.splitlines()
     assert "a.wasm" in line
     assert not (tmp_path / "b.json").exists()
+
+
+def test_a_module_is_built_once_and_damage_is_noticed(tmp_path, monkeypatch):
+    made = []
+    monkeypatch.setattr(building, "built", lambda path: made.append(path) or b"\0asm" + bytes(99))
+    monkeypatch.setattr("kacsim.kernels.folder.root", lambda: tmp_path)
+    for _ in range(2):
+        building.write(tmp_path / "a.wasm")
+        assert (tmp_path / "a.wasm").read_bytes() == b"\0asm" + bytes(99)
+    assert len(made) == 1
+    (kept,) = tmp_path.glob("page-*.json")
+    whole = kept.read_text(encoding="utf-8")
+    for damaged in (whole.replace("AAAA", "AAAB", 1), whole[:40], "[]", "{}", ""):
+        kept.write_text(damaged, encoding="utf-8")
+        assert building.read(kept) is None
+        building.write(tmp_path / "a.wasm")
+        assert building.read(kept) == b"\0asm" + bytes(99)
+    assert len(made) == 6
+    kept.unlink()
+    kept.mkdir()  # cannot be written: built each time, and nothing else
+    building.write(tmp_path / "a.wasm")
+    assert len(made) == 7
+
+
+def test_a_build_that_fails_says_why(tmp_path, monkeypatch):
+    monkeypatch.setattr(building, "SETTINGS", {"NUMBA_OPT": "x", "NUMBA_DISABLE_JIT": "1"})
+    with pytest.raises(StoreError, match=r"a\.wasm: cannot be built"):
+        building.built(tmp_path / "a.wasm")

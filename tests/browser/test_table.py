@@ -121,7 +121,7 @@ def test_a_row_of_several_components_unfolds_to_all_of_them(opened):
         """row => {
           const found = [];
           for (let one = row.nextElementSibling; one?.className === 'component';
-               one = one.nextElementSibling) found.push(one.cells[1].textContent.trim());
+               one = one.nextElementSibling) found.push(one.cells[1].textContent.trim().replace(/\\s+/g, ' '));
           return found;
         }""",
     )

@@ -18,9 +18,10 @@ from kacsim.jobs.shards import make_shards
 from kacsim.kernels.provenance import ROOT
 
 SCHEMA = ROOT / "workflow" / "schemas" / "config.schema.yaml"
+RUNTIME = "runtime.html"  # has a page of its own
 REPORT_FILES = (
-    *("report.html.j2", "lab.html.j2", "style.css"),
-    *("captions.yaml", "errata.yaml", "findings.yaml", "glossary.yaml"),
+    *(path.name for path in sorted((ROOT / "reports").glob("*.html.j2")) if path.stem != RUNTIME),
+    *("style.css", "captions.yaml", "errata.yaml", "findings.yaml", "glossary.yaml"),
     *(f"scripts/{path.name}" for path in sorted((ROOT / "reports" / "scripts").glob("*.js"))),
     *(f"published/{path.name}" for path in items.PUBLISHED),
     *(f"inventory/{path.name}" for path in sorted((ROOT / "reports" / "inventory").glob("*.yaml"))),

@@ -25,12 +25,18 @@ def lab(opened, **view):
     return page
 
 
+FILL = """(form, wanted) => {
+  for (const [name, value] of Object.entries(wanted)) {
+    form.elements.namedItem(name).value = value;
+    form.dispatchEvent(new Event('input', {bubbles: true}));
+  }
+}"""
+
+
 def choose(page, problem="kac", algorithm=None, **values):
-    page.select_option("[name=problem]", problem)
-    if algorithm:
-        page.select_option("[name=algorithm]", algorithm)
-    for name, value in values.items():
-        page.fill(f"#lab-room [name={name}]", str(value))
+    wanted = {"problem": problem} | ({"algorithm": algorithm} if algorithm else {})
+    wanted |= {name: str(value) for name, value in values.items()}
+    page.eval_on_selector("#lab-room form", FILL, wanted)
 
 
 def draw(page, button="[data-draw]"):

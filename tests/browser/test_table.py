@@ -120,8 +120,10 @@ def test_a_row_of_several_components_unfolds_to_all_of_them(opened):
         "#claim-kac_fig3_poisson_bird",
         """row => {
           const found = [];
-          for (let one = row.nextElementSibling; one?.className === 'component';
-               one = one.nextElementSibling) found.push(one.cells[1].textContent.trim().replace(/\\s+/g, ' '));
+          let one = row.nextElementSibling;
+          for (; one?.className === 'component'; one = one.nextElementSibling) {
+            found.push(one.cells[1].textContent.trim().replace(/\\s+/g, ' '));
+          }
           return found;
         }""",
     )

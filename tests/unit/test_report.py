@@ -45,8 +45,9 @@ def write(tmp_path, monkeypatch):
     texts, data, figures = (tmp_path / name for name in ("texts", "datasets", "figures"))
     for folder in (texts, data, figures):
         folder.mkdir()
-    for name in ("report.html.j2", "lab.html.j2", "style.css", "findings.yaml", "glossary.yaml"):
-        shutil.copy(report.TEXTS / name, texts)
+    for name in ("*.html.j2", "style.css", "findings.yaml", "glossary.yaml"):
+        for path in report.TEXTS.glob(name):
+            shutil.copy(path, texts)
     numbers_texts = TEXTS | {"label": "All claims", "see": "", "alt": "", "caption": ""}
     captions = {"kac_fig4": TEXTS, "kac_numbers": numbers_texts | {"engine": "all", "draws": "all"}}
     (texts / "captions.yaml").write_text(yaml.safe_dump(captions), encoding="utf-8")

@@ -6,13 +6,13 @@ from kacsim import costs
 
 # Seconds of jobs that the plan does not know: of one unit's kernels, of the page's, of the report.
 OTHERS = {
-    "compile": 2.5,
+    "compile": 1.5,
     "page_kernels": 17.0,
     "report": 6.0,
     "print_report": 17.0,
     "run_times": 0.4,
 }
-TRUSTED = 5.0  # seconds of finished jobs from which on the machine's own speed is taken
+TRUSTED = 30.0  # seconds of finished jobs from which on the machine's own speed is taken
 
 
 def weights(plan):

@@ -21,6 +21,8 @@ def item(render, name, dataset, texts, figure, shared):
     alt = " ".join(parts["alt"].striptags().split())
     drawn, box = svg.inline(read_text(figure), figure, name, f"{parts['label']}. {alt}", shared)
     own = {"name": name, "svg": drawn, "box": box, "settings": s, "tvn": tvn_table(dataset)}
+    _, _, width, height = box.split()
+    own["size"] = f"--width:{width};aspect-ratio:{width}/{height}"
     own |= _marks(figure)
     if "engine" not in parts:
         own["engine"] = s["engine"]

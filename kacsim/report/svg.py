@@ -84,7 +84,7 @@ def inline(text, path, prefix, label, shared):
     _unwrap(root)
     _hoist(root)
     box = root.get("viewBox")
-    size = f"--width:{box.split()[2]}"
+    size = f"--width:{box.split()[2]}"  # for one that stands alone
     root.attrib = {"viewBox": box, "role": "img", "aria-label": label, "style": size}
     return Markup(ElementTree.tostring(root, encoding="unicode").replace(" />", "/>")), box
 

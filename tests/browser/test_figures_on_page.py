@@ -205,7 +205,7 @@ def test_the_page_changes_nothing_of_a_figure(item, chromium, results, opened, t
     both = [
         image.crop((0, 0, *size)).resize((size[0] // 4, size[1] // 4)) for image in (one, other)
     ]
-    assert unlike(*both) < 0.002
+    assert unlike(*both) < 0.005  # letters that fall between pixels otherwise
     # Controls: a figure that is shifted, and one without its letters or marks.
     assert unlike(both[0], ImageChops.offset(both[1], 2)) > 0.01
     assert unlike(both[0], Image.new("L", both[0].size, 255)) > 0.01

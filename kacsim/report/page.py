@@ -106,6 +106,11 @@ def write(items, datasets_folder, figures_folder, output, options="", kernels=No
     files.replace_file(output, lambda name: Path(name).write_text(html, encoding="utf-8"))
 
 
+def without_scripts(html):
+    """Return the page without its scripts and what only they read: for paper."""
+    return re.sub(r"<script\b.*?</script>\n?", "", html, flags=re.S)
+
+
 def without_files(html):
     """Return the page without its links to other files: for a copy that stands alone."""
     return re.sub(r'<a href="(?!#)[^"]*">(.*?)</a>', r"\1", html, flags=re.S)

@@ -9,7 +9,7 @@ from pathlib import Path
 from kacsim.files import StoreError, replace_file
 from kacsim.recipes import carriers, lines
 from kacsim.report import browser
-from kacsim.report.page import without_files
+from kacsim.report.page import without_files, without_scripts
 from kacsim.report.texts import read_text
 
 # Nothing is asked of the network, and a page printed as root runs without Chromium's own sandbox.
@@ -45,7 +45,7 @@ def write(report, output, chromium=None):
     if chromium is None:
         raise StoreError(f"{output}: not printed: {browser.NONE}")
     output = Path(output).absolute()
-    html = without_files(read_text(Path(report)))
+    html = without_scripts(without_files(read_text(Path(report))))
     recipe = lines.of_report(*carriers.of_page(html, report))
     replace_file(output, lambda name: _print(html, name, chromium, recipe))
 

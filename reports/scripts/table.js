@@ -34,9 +34,9 @@ class Table {
     const button = document.createElement("button");
     button.type = "button";
     button.className = "order";
-    button.textContent = head.textContent;
-    head.textContent = "";
-    head.append(button);
+    button.textContent = "↕";
+    button.setAttribute("aria-label", `Sort by ${head.textContent.trim()}`);
+    head.append(" ", button);
     button.addEventListener("click", () => {
       this.sort = this.sort === `${k}` ? `-${k}` : this.sort === `-${k}` ? "" : `${k}`;
       this.apply(true);

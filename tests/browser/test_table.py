@@ -83,6 +83,16 @@ def test_order(opened):
     assert page.get_attribute("#rows thead th:nth-child(4)", "aria-sort") is None
 
 
+def test_headings_keep_their_words(opened):
+    """The buttons stand beside them: Chromium repeats no button above each page of paper."""
+    page = opened()
+    words = page.eval_on_selector_all(
+        "#rows thead th", "heads => heads.map(head => head.firstChild.textContent.trim())"
+    )
+    assert words[:2] == ["Verdict", "Number or claim"]
+    assert all(words)
+
+
 def number(text):
     """Return the number that a cell begins with, None if it begins with a word."""
     word = text.replace("\N{MINUS SIGN}", "-").lstrip("(“").split()[0] if text else ""

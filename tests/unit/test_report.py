@@ -129,6 +129,13 @@ def test_a_copy_that_stands_alone_has_no_link_to_a_file(html):
     assert "".join(Page(alone).text.split()) == "".join(Page(html).text.split())
 
 
+def test_a_copy_for_paper_has_no_script_and_all_words(html):
+    paper = report.without_scripts(html)
+    assert "<script" not in paper
+    assert "worker" not in paper
+    assert Page(paper).text.split() == Page(html).text.split()
+
+
 def test_tables_and_figures_are_labelled(html):
     page = Page(html)
     assert len(page.all("table")) == len(page.all("caption")) > 0

@@ -66,7 +66,7 @@ class OneLine(logging.Formatter):
         if event is LogEvent.JOB_INFO:
             self.started += 1
             self.remaining.start(record.jobid, record.rule_name)
-            return f"[{self.started}/{self.total}, {self.remaining.text()}] {record.rule_msg}"
+            return f"[{self.started}/{self.total}] {self.remaining.text()}: {record.rule_msg}"
         if event is LogEvent.JOB_ERROR:
             return self._failure(record)
         return self.other.format(record)

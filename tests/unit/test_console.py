@@ -41,8 +41,8 @@ def test_one_line_per_job(shown):
         logger.info("done", extra={"event": LogEvent.PROGRESS, "done": 1, "total": 5})
     assert lines == [
         "3 jobs to do",
-        "[1/3, about 2 min left] Drawing a",
-        "[2/3, about 2 min left] Drawing b",
+        "[1/3] about 2 min left: Drawing a",
+        "[2/3] about 2 min left: Drawing b",
     ]
 
 

@@ -145,5 +145,16 @@ def test_symbols_lead_to_their_meaning_once():
     assert linked.count('href="#term-TVN"') == 1
     assert '<a class="term" href="#term-N" data-meaning="a number"><i>N</i></a> = 5' in linked
     assert "<a href='#x'>TVN</a>" in linked
-    assert "TVNs" in linked
+    assert "<b>TVN</b> of TVNs and <a " in linked  # neither in a tag of its own nor in a word
     assert "a &#34;norm&#34;" in linked
+
+
+def test_the_row_that_the_page_narrows():
+    """Two-sided, at the level that one interval of its text has."""
+    own = {"kac_forward": {"n_particles": 3, "tolerance": 1e-6}}
+    raw = {"kac_51_perfect": [part(allowed=(4.0, 4.1))]}
+    (found,) = findings.narrowed(raw, own, {"kac": (100, 0.01)})
+    assert found["deviations"] == pytest.approx(3.8906, abs=1e-4)  # of a chance of 1e-4
+    assert (found["low"], found["high"]) == (4.0, 4.1)
+    assert found["given"] == {"n_particles": 3, "tolerance": 1e-6}
+    assert findings.narrowed({}, own, {"kac": (100, 0.01)}) == []

@@ -179,6 +179,9 @@ def _unit(name, function, types, target):
     text, many = re.subn(
         r"= mul (?:nuw |nsw )*i128 (\S+), (\S+)", r"= call i128 @product(i128 \1, i128 \2)", text
     )
+    # What errors would say, with the paths of this machine's files: a page asks only whether.
+    said = r"(?m)^(@\.const\.picklebuf\.\S+ = internal constant \{[^}]*\}) \{.*\}$"
+    text = re.sub(said, r"\1 zeroinitializer", text)
     # Tables that several kernels have are then kept once.
     text = re.sub(
         r"(?m)^(@\S+ = (?:internal|private) )constant ", r"\1unnamed_addr constant ", text

@@ -17,6 +17,7 @@ from kacsim.wasm import building, sections, stored
 SMALL = """
 import sys
 import numba
+import numpy as np
 from numba import carray, types
 from kacsim.kernels.jit import ERROR_MODEL
 from kacsim.kernels.wide import product
@@ -33,8 +34,15 @@ def total(values, n):
 def high(a, b):
     return product(a, b)[0]
 
+@numba.njit(error_model=ERROR_MODEL)
+def fails(n):
+    if n == 7:
+        raise ValueError("sevens")
+    return np.empty(n)[:2].sum() * n
+
 floats, words = types.CPointer(types.float64), types.uint64
-content = module.built({"total": (total, (floats, types.int64)), "high": (high, (words, words))})
+content = module.built({"total": (total, (floats, types.int64)), "high": (high, (words, words)),
+    "fails": (fails, (types.int64,))})
 sys.stdout.buffer.write(content)
 """
 
@@ -78,6 +86,8 @@ def test_a_module_has_the_same_bytes_each_time_and_needs_memory_alone():
     assert found[7].count(b"total") == found[7].count(b"high") == 1
     assert set(sections._imported(content)) <= {2, 3}  # memory and the pointer of its stack
     assert b"__multi3" not in found[2]
+    # Nothing of this machine, as in what errors say of the place where they were raised.
+    assert not any(word in content for word in (b"sevens", b"Error", b".py", b"/"))
 
 
 def test_stored_draws_are_those_of_the_public_functions(tmp_path):

@@ -111,7 +111,8 @@ class Entry(dict):
 
 def writers(trace, name, results):
     """Write the figure of an item and the numbers behind it."""
-    from kacsim import items, marks, plotting, store
+    from kacsim import items, store
+    from kacsim.drawing import marks, plotting
     from kacsim.recipes import lines
     from kacsim.report import csv_table
 

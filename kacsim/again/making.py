@@ -6,7 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from kacsim import items, plotting, store
+from kacsim import items, store
+from kacsim.drawing import plotting
 from kacsim.files import StoreError, replace_file
 from kacsim.jobs import sampling
 from kacsim.kac import own_tables

@@ -21,7 +21,8 @@ def add(parser):
 def run(arguments):
     """Draw the figure of an item, and write the numbers behind it."""
     module = _shared.known_item(arguments.item)
-    from kacsim import files, marks, plotting, store
+    from kacsim import files, store
+    from kacsim.drawing import marks, plotting
     from kacsim.jobs import stages
     from kacsim.recipes import carriers, lines
     from kacsim.report import csv_table, figures

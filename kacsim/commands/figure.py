@@ -18,7 +18,8 @@ def add(parser):
 def run(arguments):
     """Draw the figure of a dataset at the width and with the fonts of a style."""
     module = _shared.known_item(arguments.item)
-    from kacsim import files, formats, plotting, store
+    from kacsim import files, store
+    from kacsim.drawing import formats, plotting
     from kacsim.jobs import stages
     from kacsim.recipes import carriers, lines
 

@@ -7,8 +7,8 @@ from kacsim.kac.samplers import ON_PAGE
 from kacsim.kernels import sources
 
 WRITERS = (
-    ("kacsim.marks", "write"),
-    ("kacsim.plotting", "save"),
+    ("kacsim.drawing.marks", "write"),
+    ("kacsim.drawing.plotting", "save"),
     ("kacsim.recipes.lines", "of_figure"),
     ("kacsim.report.csv_table", "write"),
 )

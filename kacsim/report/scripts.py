@@ -7,9 +7,9 @@ from markupsafe import Markup
 
 from kacsim.report.texts import TEXTS, read_text
 
-WORKER = ("streams.js", "kernels.js", "exact.js", "worker.js")
-PAGE = ("exact.js", "refusals.js", "charts.js", "lab.js", "table.js", "reading.js", "tools.js")
-LAST = "main.js"
+SHARED = ("bytes.js", "exact.js")
+WORKER = (*SHARED, "streams.js", "kernels.js", "worker.js")
+LAST = "main.js"  # begins what all others define
 FIELDS = (
     ("n_particles", "Particles N", "50", "kac perfect"),
     ("time", "Time t", "2", "kac bkw"),
@@ -22,7 +22,9 @@ FIELDS = (
 
 def page():
     """Return the scripts of the page, as one function that shares nothing with others."""
-    files = "\n".join(read_text(TEXTS / "scripts" / name) for name in (*PAGE, LAST))
+    others = {path.name for path in (TEXTS / "scripts").glob("*.js")} - {*WORKER, LAST}
+    names = (*SHARED, *sorted(others), LAST)
+    files = "\n".join(read_text(TEXTS / "scripts" / name) for name in names)
     return Markup(f"(() => {{\n{_inside(files)}\n}})();")
 
 

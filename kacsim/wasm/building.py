@@ -10,6 +10,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 # Nothing is optimized for another machine's sizes, and no processor's features are used.
@@ -49,8 +50,6 @@ def read(kept):
 
 def built(path):
     """Return the bytes of a new module, built by another process for a file."""
-    import tempfile
-
     from kacsim import files
     from kacsim.kernels.provenance import ROOT
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from kacsim import kac
 from kacsim.boltzmann import mckean_tree
+from kacsim.cases import make_case
 from kacsim.kac import samplers
 from kacsim.kac.constants import RATE
 from kacsim.kac.equilibrium_samplers import RELATIVE_TOLERANCE
@@ -134,8 +135,6 @@ def _together():
 
 def case_problems(**changed):
     """Return the problems of a case of Kac's model with some values changed."""
-    from kacsim.cases import make_case
-
     given = {
         "algorithm": "poisson",
         "n_particles": 5,
@@ -148,8 +147,6 @@ def case_problems(**changed):
 
 def equilibrium_problems(**changed):
     """Return the problems of a case of the perfect sampler with some values changed."""
-    from kacsim.cases import make_case
-
     given = {"n_particles": 5, "tolerance": 1e-3} | changed
     return make_case("kac_equilibrium", n_draws=1, n_replicates=1, seed=1, **given).problems()
 

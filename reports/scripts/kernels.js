@@ -84,7 +84,3 @@ class Kernels {
     return found.every((byte, k) => byte === wanted[k]);
   }
 }
-
-function bytesOf(base64) {
-  return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-}

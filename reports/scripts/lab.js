@@ -31,7 +31,7 @@ class Lab {
       URL.revokeObjectURL(address);
       this.worker.onmessage = ({ data }) => this.told(data);
       this.worker.onerror = (event) => this.fail(event.message || "the worker cannot be started");
-      const kernels = decoded(document.getElementById("kernels").textContent.trim());
+      const kernels = bytesOf(document.getElementById("kernels").textContent.trim());
       this.worker.postMessage({ kernels, stored: this.stored });
     } catch (error) {
       this.fail(error.message);
@@ -197,8 +197,4 @@ function python(problem, given, seed, size) {
   if (problem === "kac") return `kac.draw(${words.join(", ")}, n_draws=${size}, seed=${seed})`;
   if (problem === "perfect") return `kac.draw_equilibrium(${words.join(", ")}, n_draws=${size}, seed=${seed})`;
   return `boltzmann.estimate_bkw(${given.speed}, ${given.time}, method="free_leaf", n_realizations=${MILLION}, seed=${seed})`;
-}
-
-function decoded(base64) {
-  return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
 }

@@ -153,7 +153,7 @@ def test_the_second_derivation_sees_what_a_hole_would_hide():
     found = set().union(*(bytecode.loads(*root) for root in roots))
     assert found >= {
         ("kacsim.items._kac", "tvn_table"),  # of a module
-        ("kacsim.plotting", "panels"),  # of a lazy module
+        ("kacsim.drawing.plotting", "panels"),  # of a lazy module
         ("kacsim.kac.samplers", "TITLES"),  # imported
     }
     assert bytecode.loads("kacsim.jobs.shards", "merged") >= {

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from kacsim import plotting
+from kacsim.drawing import plotting
 from kacsim.items import _corners, boltzmann_fig2, boltzmann_fig8, kac_fig6, kac_fig7, kac_fig8
 from kacsim.items.kac_fig9 import _excess
 from kacsim.statistics import histogram

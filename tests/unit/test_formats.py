@@ -3,7 +3,8 @@
 import pytest
 from matplotlib.text import Text
 
-from kacsim import cli, formats, plotting, store
+from kacsim import cli, store
+from kacsim.drawing import formats, plotting
 
 
 def drawn(columns=2):

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from kacsim import marks, plotting
+from kacsim.drawing import marks, plotting
 
 NAN = float("nan")
 

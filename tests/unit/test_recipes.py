@@ -6,9 +6,10 @@ import re
 import numpy as np
 import pytest
 
-from kacsim import cli, files, items, plan, plotting, store
+from kacsim import cli, files, items, plan, store
 from kacsim.again import comparing, making, reading
 from kacsim.cases import make_case
+from kacsim.drawing import plotting
 from kacsim.jobs import sampling
 from kacsim.kernels.provenance import ROOT
 from kacsim.recipes import carriers, lines

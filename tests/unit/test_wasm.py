@@ -11,6 +11,9 @@ import pytest
 
 from kacsim import cli, kac
 from kacsim.files import StoreError
+from kacsim.jobs import stages
+from kacsim.kac import samplers
+from kacsim.kernels import names, sources
 from kacsim.kernels.provenance import ROOT
 from kacsim.wasm import building, sections, stored
 
@@ -137,3 +140,26 @@ def test_a_build_that_fails_says_why(tmp_path, monkeypatch):
     monkeypatch.setattr(building, "SETTINGS", {"NUMBA_OPT": "x", "NUMBA_DISABLE_JIT": "1"})
     with pytest.raises(StoreError, match=r"a\.wasm: cannot be built"):
         building.built(tmp_path / "a.wasm")
+
+
+FAMILY = ("entries", "module", "sections", "stored")
+
+
+def test_the_rule_depends_on_all_that_it_runs():
+    """Every definition of the family, and the kernels that are looked up by name."""
+    roots = stages.wasm_roots()
+    assert missed(roots) == set()
+    for root in roots:  # a control: each root that is no algorithm's brings something of its own
+        if root[0].startswith("kacsim.wasm"):
+            assert missed([one for one in roots if one != root]), root
+
+
+def missed(roots):
+    """Return the definitions that a build runs and that these roots do not reach."""
+    modules = [f"kacsim.wasm.{name}" for name in FAMILY]
+    wanted = {(module, one) for module in modules for one in names.table(module)["definitions"]}
+    wanted.add(("kacsim.wasm.building", "SETTINGS"))
+    own = {(f"kacsim.kac.{name}", part) for name in samplers.ON_PAGE for part in stages.LOOKED_UP}
+    assert {part for _, part in own} == {"ancestral", "arguments"}
+    wanted |= {one for one in own if one[1] in names.table(one[0])["definitions"]}
+    return wanted - sources.closure(frozenset(roots))[0]

@@ -137,7 +137,7 @@ LATER = [
     ("kacsim/kac/samplers.py", 'Variant("bird", "Bird")', 'Variant("bird", "Bird (DSMC)")',
      {"kac_numbers", "kac_work_precision"},
      KAC_FIGURES),
-    ("kacsim/plotting.py", '"axes.titlesize": 9', '"axes.titlesize": 10', set(), EVERY),
+    ("kacsim/drawing/plotting.py", '"axes.titlesize": 9', '"axes.titlesize": 10', set(), EVERY),
     ("kacsim/items/kac_fig4.py", '"""Draw ', '"""Paint ', set(), set()),
     ("kacsim/report/csv_table.py", 'lineterminator="\\n"', 'lineterminator="\\r\\n"', set(), EVERY),
     ("reports/captions.yaml", "# What the report says of each item.", "# What the report tells of each item.", set(), set()),

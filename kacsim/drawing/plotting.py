@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import patheffects, ticker
 from matplotlib.figure import Figure
 
-from kacsim import marks
+from kacsim.drawing import marks
 from kacsim.files import replace_file
 from kacsim.kernels.lookup import lazy
 from kacsim.recipes.carriers import FIELD

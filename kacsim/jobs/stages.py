@@ -47,9 +47,7 @@ def wasm_roots():
     """Return (module, name) of what compiles the kernels of the page and draws by them."""
     looked_up = ((f"kacsim.kac.{name}", part) for name in ON_PAGE for part in LOOKED_UP)
     return (
-        ("kacsim.wasm.building", "SETTINGS"),
-        ("kacsim.wasm.entries", "entries"),
-        ("kacsim.wasm.module", "built"),
+        ("kacsim.wasm.building", "SETTINGS"),  # and what that module does when it is run
         ("kacsim.wasm.stored", "content"),
         *looked_up,
     )

@@ -57,6 +57,11 @@ function sphereProbabilities(n, edges) {
   return masses.map((mass) => mass / total);
 }
 
+// Collisions of n particles in a time, in the mean.
+function meanCollisions(n, time, rate) {
+  return (rate * n * time) / 2;
+}
+
 // E v_1**4 of the process itself, where it has a short form; null elsewhere.
 function fourthMoment(problem, given, rate) {
   const n = given.n_particles;
@@ -67,7 +72,7 @@ function fourthMoment(problem, given, rate) {
   }
   if (given.algorithm !== "bird") return null;
   const lost = (n + 2) / (2 * n * (n - 1));
-  const collisions = Math.ceil((rate * n * given.time) / 2);
+  const collisions = Math.ceil(meanCollisions(n, given.time, rate));
   return 3.75 - gain * (lost < 1 ? Math.expm1(collisions * Math.log1p(-lost)) : -1);
 }
 

@@ -40,11 +40,11 @@ class Kernels {
     if (problem === "perfect") return [BigInt(n), 1.5 * n, given.tolerance];
     const rate = this.stored.rate;
     if (given.algorithm === "bird") {
-      return [BigInt(n), BigInt(Math.ceil((rate * n * given.time) / 2))];
+      return [BigInt(n), BigInt(Math.ceil(meanCollisions(n, given.time, rate)))];
     }
     if (this.stored.stepped.includes(given.algorithm)) {
       const share = rate * given.time_step;
-      const each = given.algorithm === "nanbu_babovsky" ? (rate * n * given.time_step) / 2 : share;
+      const each = given.algorithm === "nanbu_babovsky" ? meanCollisions(n, given.time_step, rate) : share;
       return [BigInt(n), BigInt(Math.round(given.time / given.time_step)), each];
     }
     const others = given.algorithm === "poisson" ? n - 1 : n - 2;

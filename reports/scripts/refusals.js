@@ -42,7 +42,7 @@ function together(problem, given, stored) {
   } else if (share > 1) {
     add("time_step", `${sentences.fast} (${Number(stored.rate.toPrecision(4))} * ${given.time_step} = ${Number(share.toPrecision(4))})`, {});
   } else if (given.algorithm === "nanbu_babovsky") {
-    const pairs = Math.ceil((stored.rate * n * given.time_step) / 2);
+    const pairs = Math.ceil(meanCollisions(n, given.time_step, stored.rate));
     if (2 * pairs > n) add("time_step", sentences.pairs, { pairs, n });
   } else if (steps > 1e5) {
     add("time_step", `must be longer: ${Math.round(steps)} steps, more than 100000`, {});

@@ -22,6 +22,7 @@ fi
 
 # No accounting database: the executor then asks squeue, so that ended jobs must stay known.
 cat > "$conf" << EOF
+# Of a gate of kacsim, which removes it.
 ClusterName=gate
 SlurmctldHost=$host(127.0.0.1)
 SlurmUser=root

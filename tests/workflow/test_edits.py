@@ -1,7 +1,7 @@
 # ruff: noqa: E501
 """What is made again after an edit: what the edit changes, and nothing else.
 
-Each edit goes through a real dry run of Snakemake on a finished smoke run, and is undone.
+Edits go through a real dry run of Snakemake on a finished smoke run, and are undone.
 """
 
 import re
@@ -18,22 +18,24 @@ FAMILY = {"samples": "sample", "datasets": "reduce", "figures": "draw"}
 
 @pytest.fixture(scope="module")
 def edited(finished, tmp_path_factory):
-    """Return a function: edit a file of a finished project, plan, undo; what would be made."""
+    """Return a function: edit files of a finished project, plan, undo; what would be made."""
     folder = tmp_path_factory.mktemp("edited") / "project"
     shutil.copytree(finished.folder, folder, symlinks=True)
     project = type(finished)(folder)
 
-    def plan(file, old, new):
-        path = folder / file
-        text = path.read_text(encoding="utf-8")
-        assert text.count(old) == 1, f"{file} holds {old!r} {text.count(old)} times"
-        kept = folder.parent / "kept"
-        shutil.copy2(path, kept)
-        path.write_text(text.replace(old, new), encoding="utf-8")
+    def plan(*edits):
+        for file, old, new in edits:
+            path, kept = folder / file, folder.parent / "kept" / file
+            text = path.read_text(encoding="utf-8")
+            assert text.count(old) == 1, f"{file} holds {old!r} {text.count(old)} times"
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(path, kept)
+            path.write_text(text.replace(old, new), encoding="utf-8")
         try:
             answer = project.snakemake("--dry-run", "--printshellcmds", *SMOKE)
         finally:
-            shutil.copy2(kept, path)
+            for file, _, _ in edits:
+                shutil.copy2(folder.parent / "kept" / file, folder / file)
         assert answer.returncode == 0, answer.stdout + answer.stderr
         return planned(answer.stdout)
 
@@ -70,9 +72,9 @@ NOTHING = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("file", "old", "new"), NOTHING, ids=[edit[0] for edit in NOTHING])
-def test_an_edit_that_changes_no_result_redoes_nothing(edited, file, old, new):
-    again = edited(file, old, new)
+def test_edits_that_change_no_result_redo_nothing(edited):
+    """All of them at once: no two can make up for each other, since hashes do not."""
+    again = edited(*NOTHING)
     assert not again["sample"] | again["reduce"] | again["draw"]
 
 
@@ -114,7 +116,7 @@ SAMPLES = [
 def test_an_edit_of_what_draws_redraws_its_cases_alone(
     edited, finished, file, old, new, drawn, spared
 ):
-    again = edited(file, old, new)["sample"]
+    again = edited((file, old, new))["sample"]
     everything = all_samples(finished)
     for stem in drawn:
         wanted = of(stem, everything)
@@ -148,7 +150,7 @@ LATER = [
     ("file", "old", "new", "reduced", "drawn"), LATER, ids=[edit[0] for edit in LATER]
 )
 def test_an_edit_of_a_later_stage_redoes_that_stage(edited, file, old, new, reduced, drawn):
-    again = edited(file, old, new)
+    again = edited((file, old, new))
     assert not again["sample"]
     assert again["reduce"] == reduced
     assert again["draw"] >= (reduced if drawn is None else drawn)

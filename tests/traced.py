@@ -113,17 +113,20 @@ def writers(trace, name, results):
     """Write the figure of an item and the numbers behind it."""
     from kacsim import items, store
     from kacsim.drawing import marks, plotting
+    from kacsim.jobs import stages
     from kacsim.recipes import lines
     from kacsim.report import csv_table
 
     dataset = store.read(Path(results) / "datasets" / f"{name}.nc")
-    figure = items.load(name).draw(dataset)
+    module = items.load(name)
+    figure = module.draw(dataset)
+    cases = stages.drawn_from(module.cases(dataset.attrs["settings"]))
     with tempfile.TemporaryDirectory() as folder, trace.running("draw"):
         recipe = lines.of_figure(dataset, "")
         for suffix in ("svg", "png", "pdf"):
             plotting.save(figure, f"{folder}/figure.{suffix}", recipe)
         csv_table.write(dataset, f"{folder}/figure.csv", recipe)
-        marks.write(figure, f"{folder}/figure.marks.json")
+        marks.write(figure, f"{folder}/figure.marks.json", dataset, cases)
 
 
 def pages(trace, results):

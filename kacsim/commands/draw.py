@@ -30,6 +30,7 @@ def run(arguments):
     dataset = store.read_dataset(arguments.dataset, arguments.item)
     recipe = lines.of_figure(dataset, stages.code(stages.draw_roots(arguments.item)))
     figure = module.draw(dataset)
+    cases = stages.drawn_from(module.cases(dataset.attrs["settings"]))
     sums = [path for path in arguments.output if path.endswith(".sha256")]
     drawn = [path for path in arguments.output if path not in sums]
     later = []
@@ -41,6 +42,6 @@ def run(arguments):
         elif not path.endswith(carriers.TABLE):  # which a table brings with it
             plotting.save(figure, path, recipe)
     for path in later:
-        marks.write(figure, path)
+        marks.write(figure, path, dataset, cases)
     for path in sums:
         files.write_sums(drawn, path)

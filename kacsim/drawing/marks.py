@@ -5,29 +5,16 @@ Read off matplotlib's own artists, so that a figure need not say anything twice.
 
 import json
 import math
-import re
 from pathlib import Path
 
 import numpy as np
-from matplotlib.container import BarContainer, ErrorbarContainer
-from matplotlib.patches import StepPatch
 
+from kacsim.drawing import origins, series
 from kacsim.files import replace_file
 
 DIGITS = 6
 MOST = 1500  # values of one series
-GREEK = {
-    r"\lambda": "λ", r"\Delta": "Δ", r"\varepsilon": "ε", r"\epsilon": "ε", r"\theta": "θ",
-    r"\pi": "π", r"\omega": "ω", r"\infty": "∞", r"\to": "→", r"\times": "×", r"\nu": "ν",
-    r"\tau": "τ", r"\eta": "η", r"\alpha": "α", r"\beta": "β", r"\kappa": "κ", r"\sigma": "σ",
-    r"\rho": "ρ", r"\langle": "⟨", r"\rangle": "⟩", r"\,": " ", r"\cdot": "·", r"\leq": "≤",
-    r"\geq": "≥", r"\phi": "φ", r"\mu": "μ", r"\gamma": "γ", r"\xi": "ξ", r"\hat": "",
-    r"\mathrm": "", r"\sqrt": "√", r"\pm": "±", r"\approx": "≈", r"\prime": "′",
-}  # fmt: skip
-UP, DOWN = (
-    str.maketrans("0123456789-+n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿ"),
-    str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"),
-)
+SHOWN = ("rectilinear", "3d")  # kinds of axes
 
 
 def named(figure):
@@ -40,14 +27,15 @@ def named(figure):
     Returns
     -------
     list of (Axes, list of dict with id, label, kind (points, curve or bars), x, y, and error or low
-    and high where there are bars); of bars x are their edges
+    and high where there are bars); of bars x are their edges; in space also z, and left and bottom
+    in pixels
     """
     found, number = [], 0
     for axes in figure.axes:
-        if axes.name != "rectilinear" or not axes.get_visible():
+        if axes.name not in SHOWN or not axes.get_visible():
             continue
         own = []
-        for artists, one in _series(axes):
+        for artists, one in series.of_panel(axes):
             for k, artist in enumerate(artists):
                 artist.set_gid(f"mark-{number}-{k}" if k else f"mark-{number}")
             own.append({"id": f"mark-{number}"} | one)
@@ -57,106 +45,73 @@ def named(figure):
     return found
 
 
-def table(figure):
+def table(figure, dataset, cases):
     """Return all of it as JSON-ready values, with where each of the axes lies on the figure.
+
+    Parameters
+    ----------
+    figure : matplotlib Figure, laid out
+    dataset : xarray.Dataset, what it was drawn from
+    cases : list of (title, settings) of its item's cases
 
     Returns
     -------
-    dict: size (width and height in points) and axes, each a dict of box (left, top, width and
-    height in points), x and y (scale, first and last value), labels and series as of `named`
+    dict: size (width and height in points), cases (titles of those that marks come from) and axes,
+    each a dict of box (left, top, width and height in points), x and y (scale, first and last
+    value), labels and series as of `named`, in space with left and top in points; case is a place
+    among the cases, the same for all marks or one for each (None where it is not known)
     """
     width, height = (72.0 * float(inches) for inches in figure.get_size_inches())
     unit = 72.0 / figure.dpi
-    axes = []
-    for one, series in named(figure):
+    axes, places = [], {}
+    for one, shown in named(figure):
         box = one.get_window_extent()
         place = [box.x0 * unit, height - box.y1 * unit, box.width * unit, box.height * unit]
+        listed = []
+        for values in shown:
+            if "left" in values:
+                top = height - values.pop("bottom") * unit
+                values |= {"left": values["left"] * unit, "top": top}
+            case = origins.of_series(values, dataset, cases)
+            case = [k if k is None else places.setdefault(k, len(places)) for k in case]
+            listed.append(_short(values) | _once(case))
+        names = [getattr(one, f"{letter}axis", None) for letter in "xyz"]
         axes.append(
             {
                 "box": [round(value, 2) for value in place],
                 "x": _scale(one.get_xscale(), one.get_xlim()),
                 "y": _scale(one.get_yscale(), one.get_ylim()),
-                "labels": [plain(one.get_xlabel()), plain(one.get_ylabel())],
-                "series": [_short(values) for values in series],
+                "labels": [series.plain(name.get_label_text()) for name in names if name],
+                "series": listed,
             }
         )
-    return {"size": [round(width, 2), round(height, 2)], "axes": axes}
+    titles = [cases[k][0] for k in places]
+    return {"size": [round(width, 2), round(height, 2)], "cases": titles, "axes": axes}
 
 
-def write(figure, path):
-    """Write the numbers behind a figure that has been drawn, as JSON."""
-    text = json.dumps(table(figure), ensure_ascii=False, separators=(",", ":"))
+def write(figure, path, dataset, cases):
+    """Write the numbers behind a figure that has been drawn, as JSON: those of `table`."""
+    text = json.dumps(table(figure, dataset, cases), ensure_ascii=False, separators=(",", ":"))
     replace_file(path, lambda name: Path(name).write_text(text, encoding="utf-8"))
-
-
-def plain(text):
-    """Return a label without TeX."""
-    for word, sign in sorted(GREEK.items(), key=lambda pair: -len(pair[0])):
-        text = text.replace(word, sign)
-    text = re.sub(r"\^\{?([-+0-9n]+)\}?", lambda found: found[1].translate(UP), text)
-    text = re.sub(r"_\{?([0-9]+)\}?", lambda found: found[1].translate(DOWN), text)
-    return " ".join(re.sub(r"[${}\\]", "", text).split())
 
 
 def _scale(name, limits):
     return {"scale": name, "from": float(limits[0]), "to": float(limits[1])}
 
 
-def _series(axes):
-    """Yield (artists, what they show) of one panel."""
-    taken = set()
-    for container in axes.containers:
-        if isinstance(container, ErrorbarContainer):
-            line, caps, bars = container.lines
-            taken |= {line, *caps, *bars}
-            if line is not None:
-                yield (line, *bars), _with_bars(line, bars, container.get_label())
-        elif isinstance(container, BarContainer):
-            taken |= set(container.patches)
-            edges = [(one.get_x(), one.get_x() + one.get_width()) for one in container.patches]
-            heights = [one.get_height() for one in container.patches]
-            middle = [0.5 * (left + right) for left, right in edges]
-            yield container.patches, _values("points", container.get_label(), middle, heights)
-    for line in axes.lines:
-        if line not in taken and line.get_transform() == axes.transData:
-            kind = "points" if line.get_linestyle() in ("None", "none", "", " ") else "curve"
-            yield (line,), _values(kind, line.get_label(), *line.get_data(orig=False))
-    for patch in axes.patches:
-        if isinstance(patch, StepPatch) and patch not in taken and not patch.get_fill():
-            data = patch.get_data()
-            yield (patch,), _values("bars", patch.get_label(), data.edges, data.values)
+def _once(case):
+    """Return the case of a series said as shortly as possible; nothing where none is known."""
+    if set(case) <= {None}:
+        return {}
+    return {"case": case[0] if len(set(case)) == 1 else case}
 
 
-def _values(kind, label, x, y):
-    text = "" if label is None or str(label).startswith("_") else plain(str(label))
-    return {"label": text, "kind": kind, "x": np.asarray(x, float), "y": np.asarray(y, float)}
-
-
-def _with_bars(line, bars, label):
-    """Return points with the ends of their upright bars; a point without a value has none."""
-    found = _values("points", label, *line.get_data(orig=False))
-    low, high = np.full((2, found["x"].size), np.nan)
-    for collection in bars:
-        for ends in collection.get_segments():
-            if len(ends) == 2 and ends[0, 0] == ends[1, 0]:
-                bottom, top = sorted(ends[:, 1])
-                here = (found["x"] == ends[0, 0]) & (bottom <= found["y"]) & (found["y"] <= top)
-                free = np.flatnonzero(here & np.isnan(low))
-                low[free[:1]], high[free[:1]] = bottom, top
-    if np.isnan(low).all():
-        return found
-    below, above = found["y"] - low, high - found["y"]
-    if np.allclose(below, above, rtol=1e-6, atol=0.0, equal_nan=True):
-        return found | {"error": 0.5 * (below + above)}
-    return found | {"low": low, "high": high}
-
-
-def _short(series):
+def _short(values):
     """Return a series with few digits; equal steps of x by their ends, long curves thinned."""
-    arrays = {key: value for key, value in series.items() if isinstance(value, np.ndarray)}
-    words = {key: value for key, value in series.items() if key not in arrays}
-    if series["kind"] == "curve" and len(series["x"]) > MOST:
-        stride = math.ceil(len(series["x"]) / MOST)
+    arrays = {key: value for key, value in values.items() if isinstance(value, np.ndarray)}
+    words = {key: value for key, value in values.items() if key not in arrays}
+    if values["kind"] == "curve" and len(values["x"]) > MOST:
+        stride = math.ceil(len(values["x"]) / MOST)
         arrays = {key: value[::stride] for key, value in arrays.items()}
     listed = {key: [_rounded(one) for one in value] for key, value in arrays.items()}
     x = arrays["x"]

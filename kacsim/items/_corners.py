@@ -186,9 +186,9 @@ def draw_step(axis, before, after, order):
 def draw_points(axis, points, order, symbol, label=None):
     """Draw points, numbered where the symbol (marker, place among the colours, size) has room."""
     marker, colour, size = symbol
-    style = {"marker": marker, "s": size, "color": plotting.COLOURS[colour], "label": label}
+    style = {"marker": marker, "ms": np.sqrt(size), "mew": 1.5, "color": plotting.COLOURS[colour]}
     points = points[:, np.array(order) - 1]
-    axis.scatter(*points.T, depthshade=False, zorder=5, **style)
+    axis.plot(*points.T, ls="none", zorder=5, label=label, **style)
     if size >= 60:
         for k, point in enumerate(points):
             number = {"color": "white", "size": 6, "ha": "center", "va": "center", "zorder": 6}

@@ -38,6 +38,16 @@ def draw_roots(name):
     return (f"kacsim.items.{name}", "draw"), *WRITERS
 
 
+def drawn_from(cases):
+    """Return what marks of a figure are told from beside the dataset: title and settings each."""
+    return [(case.title(), case.settings()) for case in cases]
+
+
+def draw_values(cases):
+    """Return what a figure and its numbers depend on beside the dataset, as one line."""
+    return json.dumps(drawn_from(cases), sort_keys=True)
+
+
 def page_roots(module):
     """Return (module, name) of what writes the report, its print or the page of run times."""
     return ((f"kacsim.report.{module}", "write"),)

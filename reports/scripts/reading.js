@@ -69,11 +69,12 @@ class Reading {
   }
 
   told(mark) {
-    const { axes, series } = mark;
+    const { axes, series, depth } = mark;
     const words = [series.label || axes.labels[1] || "value"];
     words.push(`${axes.labels[0] || "x"} = ${mark.at}`);
     words.push(`${axes.labels[1] || "y"} = ${mark.value}`);
-    return `${words.join("; ")}. ${this.draws}.`;
+    if (depth !== undefined) words.push(`${axes.labels[2]} = ${short(depth)}`);
+    return `${words.join("; ")}. ${mark.draws ?? `Whole figure: ${this.draws}`}.`;
   }
 
   choose(mark) {
@@ -116,14 +117,19 @@ function marksOf(table) {
       const places = spread(series.x);
       series.y.forEach((value, k) => {
         const at = series.kind === "bars" ? (places[k] + places[k + 1]) / 2 : places[k];
-        const [px, py] = [x(at), y(value)];
+        const [px, py] = series.left ? [series.left[k], series.top[k]] : [x(at), y(value)];
         const inside = px >= axes.box[0] - 2 && px <= axes.box[0] + axes.box[2] + 2 && py >= axes.box[1] - 2 && py <= axes.box[1] + axes.box[3] + 2;
         if (value === null || at === null || !inside) return;
-        found.push({ axes, series, px, py, at: atOf(series, places, k), value: valueOf(series, k) });
+        found.push({ axes, series, px, py, draws: drawsOf(table, series, k), at: atOf(series, places, k), value: valueOf(series, k), depth: series.z?.[k] });
       });
     }
   }
   return found;
+}
+
+// The draws behind a mark, where its case is known.
+function drawsOf(table, series, k) {
+  return table.cases[Array.isArray(series.case) ? series.case[k] : series.case];
 }
 
 function spread(x) {

@@ -78,16 +78,17 @@ class Tools {
     return new XMLSerializer().serializeToString(copy);
   }
 
-  // One row a mark: the panel's names, the series, x (of a bar its ends), y, and what bars there are.
+  // One row a mark: the panel's names, the series, x (of a bar its ends), y, what bars there are, in
+  // space z, and the draws where they are known.
   csvText() {
-    const rows = [["panel", "series", "x_name", "y_name", "x", "x_end", "y", "error", "low", "high"]];
+    const rows = [["panel", "series", "x_name", "y_name", "x", "x_end", "y", "error", "low", "high", "z", "draws"]];
     this.table.axes.forEach((axes, panel) => {
       for (const series of axes.series) {
         const x = spread(series.x);
         series.y.forEach((y, k) => {
           const end = series.kind === "bars" ? x[k + 1] : "";
-          const bars = ["error", "low", "high"].map((name) => (series[name] ? series[name][k] : ""));
-          rows.push([panel + 1, series.label, ...axes.labels, x[k], end, y, ...bars]);
+          const bars = ["error", "low", "high", "z"].map((name) => (series[name] ? series[name][k] : ""));
+          rows.push([panel + 1, series.label, ...axes.labels.slice(0, 2), x[k], end, y, ...bars, drawsOf(this.table, series, k)]);
         });
       }
     });
@@ -104,7 +105,7 @@ class Tools {
 }
 
 function quoted(value) {
-  const text = value === null ? "" : String(value);
+  const text = String(value ?? "");
   return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
 }
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from kacsim import store
+from kacsim.items import kac_fig3
 
 FIGURE = "figure[data-item={}]"
 ITEMS = ("kac_fig2", "kac_fig3", "kac_fig4", "boltzmann_fig4")
@@ -84,6 +85,51 @@ def test_the_keyboard_walks_through_the_marks(opened, results):
     assert "draws" in page.inner_text("#tip")
     page.keyboard.press("Escape")
     assert not page.locator("#tip").is_visible()
+
+
+def test_a_mark_tells_the_draws_that_it_is_from(opened, results):
+    """As the item itself says which case that is; the data that are saved say it too."""
+    page = opened()
+    item = "kac_fig3"
+    settings = store.read(results / f"datasets/{item}.nc").attrs["settings"]
+    grid = kac_fig3._grid(settings)
+    to(page, item)
+    for k, n in enumerate(settings["n_particles"]):
+        page.keyboard.press("ArrowRight")
+        text = page.inner_text(f"{FIGURE.format(item)} output")
+        assert f"N = {n};" in text
+        assert text.endswith(f". {grid[0, k].title()}.")
+    page.keyboard.press("ArrowDown")
+    other = page.inner_text(f"{FIGURE.format(item)} output")
+    assert other.endswith(f". {grid[1, 0].title()}.")
+    rows = list(csv.DictReader(io.StringIO(saved(page, item, "csv"))))
+    drawn = [row["draws"] for row in rows if row["error"]]
+    assert drawn == [case.title() for case in grid.values()]
+
+
+def test_marks_in_space_tell_three_velocities(opened, results):
+    page = opened()
+    item = "kac_fig7"
+    dataset = store.read(results / f"datasets/{item}.nc")
+    series = [one["label"] for one in marks_of(page)[item]["axes"][0]["series"]]
+    assert {"points", "their images", "image of the octant"} <= set(series)
+    to(page, item)
+    for name, label in (("before", "points"), ("after", "their images")):
+        while not page.inner_text(f"{FIGURE.format(item)} output").startswith(f"{label};"):
+            page.keyboard.press("ArrowDown" if name == "after" else "ArrowRight")
+        text = page.inner_text(f"{FIGURE.format(item)} output").replace("\N{MINUS SIGN}", "-")
+        found = [float(x) for x in re.findall(r"v[₁₂₃] = (-?[\d.e-]+)[;.]", text)]
+        assert np.isclose(dataset[name].values, found, rtol=1e-5).all(axis=1).any()
+    ring = page.locator(f"{FIGURE.format(item)} .ring").bounding_box()
+    own = next(o for o in marks_of(page)[item]["axes"][0]["series"] if o["label"] == label)
+    places = page.locator(f"[id='{item}-{own['id']}'] use")
+    boxes = [places.nth(k).bounding_box() for k in range(places.count())]
+    middle = ring["x"] + ring["width"] / 2, ring["y"] + ring["height"] / 2
+    assert any(
+        abs(b["x"] + b["width"] / 2 - middle[0]) < 1.0
+        and abs(b["y"] + b["height"] / 2 - middle[1]) < 1.0
+        for b in boxes
+    )
 
 
 def test_pointing_at_a_mark_tells_it(opened):

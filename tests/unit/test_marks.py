@@ -4,8 +4,9 @@ import json
 
 import numpy as np
 import pytest
+import xarray
 
-from kacsim.drawing import marks, plotting
+from kacsim.drawing import marks, plotting, series
 
 NAN = float("nan")
 
@@ -29,21 +30,21 @@ def figure():
 
 def table(figure, tmp_path):
     plotting.save(figure, tmp_path / "a.svg", "recipe")
-    marks.write(figure, tmp_path / "a.marks.json")
+    marks.write(figure, tmp_path / "a.marks.json", xarray.Dataset(), [])
     return json.loads((tmp_path / "a.marks.json").read_text(encoding="utf-8"))
 
 
 def test_what_was_drawn(figure, tmp_path):
     left, right = table(figure, tmp_path)["axes"]
-    series = {one["label"]: one for one in left["series"]}
-    assert series["N = 5"]["x"] == [1, 10, 100]
-    assert series["N = 5"]["y"] == [2, 1.23457, None]
-    assert series["N = 5"]["error"] == [0.1, 0.2, None]
-    assert series["λ₁ t²"]["low"] == [1.9, 1.13457, None]
-    assert series["λ₁ t²"]["high"] == [2.3, 1.53457, None]
-    assert "a level" not in series  # it has no place on the axis of x
-    assert series[""]["kind"] == "curve"
-    assert series["alone"]["kind"] == "points"
+    shown = {one["label"]: one for one in left["series"]}
+    assert shown["N = 5"]["x"] == [1, 10, 100]
+    assert shown["N = 5"]["y"] == [2, 1.23457, None]
+    assert shown["N = 5"]["error"] == [0.1, 0.2, None]
+    assert shown["λ₁ t²"]["low"] == [1.9, 1.13457, None]
+    assert shown["λ₁ t²"]["high"] == [2.3, 1.53457, None]
+    assert "a level" not in shown  # it has no place on the axis of x
+    assert shown[""]["kind"] == "curve"
+    assert shown["alone"]["kind"] == "points"
     assert left["x"]["scale"] == "log"
     assert left["labels"][0] == "number N"
     other = {one["label"]: one for one in right["series"]}
@@ -79,9 +80,44 @@ def test_ids_are_those_of_the_file(figure, tmp_path):
     assert all(f'id="{name}"' in text for name in ids)
 
 
-def test_panels_in_space_have_none(tmp_path):
-    drawn, _ = plotting.panels(1, 1, projection="3d")
-    assert table(drawn, tmp_path)["axes"] == []
+def test_panels_in_space_tell_three_coordinates_and_their_place(tmp_path):
+    """Points with a name, and lines; what has none, such as a net, is no mark."""
+    drawn, (axis,) = plotting.panels(1, 1, projection="3d")
+    axis.plot([1.0, 2.0], [3.0, 4.0], [5.0, 7.0], "o", label="points")
+    axis.plot([1.0, 2.0], [3.0, 4.0], [5.0, 7.0], label="an arc")
+    axis.plot([1.0, 2.0], [3.0, 4.0], [5.0, 7.0])
+    axis.set_xlabel("$v_3$")
+    axis.set_zlabel("$v_2$")
+    (own,) = table(drawn, tmp_path)["axes"]
+    assert own["labels"] == ["v₃", "", "v₂"]
+    assert [(one["label"], one["kind"]) for one in own["series"]] == [
+        ("points", "points"),
+        ("an arc", "curve"),
+    ]
+    for one in own["series"]:
+        assert [one[name] for name in "xyz"] == [[1, 2], [3, 4], [5, 7]]
+    part = (tmp_path / "a.svg").read_text(encoding="utf-8").partition(own["series"][0]["id"])[2]
+    for k in range(2):
+        use, part = part.partition("<use ")[2].split("/>", 1)
+        x, y = (float(use.partition(f'{name}="')[2].partition('"')[0]) for name in ("x", "y"))
+        assert x == pytest.approx(own["series"][0]["left"][k], abs=0.01)
+        assert y == pytest.approx(own["series"][0]["top"][k], abs=0.01)
+
+
+def test_a_mark_names_the_case_that_it_is_from(tmp_path):
+    """Said once where all marks of a series have the same, and only of those that have any."""
+    values = np.array([[2.0, 3.0], [4.0, 5.0]])
+    size = {"n_draws": 1, "n_replicates": 1}
+    cases = [(f"draws at {n}", {"n_particles": n} | size) for n in (5, 7, 9)]
+    dims = {"n_particles": [7, 5], "time": [1.0, 2.0]}
+    dataset = xarray.Dataset({"tvn": (tuple(dims), values)}, dims)
+    drawn, (axis,) = plotting.panels(1, 1)
+    plotting.points(axis, dims["n_particles"], values[:, 0], [0.1, 0.1], 0, "against N")
+    plotting.points(axis, dims["time"], values[1], [0.1, 0.1], 1, "against time")
+    axis.plot([1.0, 2.0], [2.0, 4.0], label="exact")
+    found = marks.table(drawn, dataset, cases)
+    assert found["cases"] == ["draws at 7", "draws at 5"]
+    assert [one.get("case") for one in found["axes"][0]["series"]] == [[0, 1], 1, None]
 
 
 @pytest.mark.parametrize(
@@ -95,4 +131,4 @@ def test_panels_in_space_have_none(tmp_path):
     ],
 )
 def test_labels_are_plain(text, wanted):
-    assert marks.plain(text) == wanted
+    assert series.plain(text) == wanted

@@ -26,6 +26,7 @@ rule draw:
         mem_mb=600,
         runtime=10,
     params:
+        values=lambda wildcards: stages.draw_values(the_plan.cases_of[wildcards.item]),
         code=lambda wildcards: stages.code(stages.draw_roots(wildcards.item)),
     message:
         "Drawing {wildcards.item}"

@@ -38,6 +38,8 @@ shell.prefix(
 SERVED = os.environ.pop(client.ADDRESS, None) != "off" and workflow.local_exec
 
 START = time.time()
+# Cores here, jobs in the queue of a cluster.
+AT_A_TIME = workflow.resource_settings.cores or workflow.resource_settings.nodes
 FORMATS = ("svg", "png", "pdf", "csv")
 BESIDE = ("csv-metadata.json", "marks.json", "sha256")  # what comes with them
 # Where no Chromium is installed there is no PDF to make; the run says so at its end.
@@ -58,7 +60,7 @@ if workflow.is_main_process and not workflow.output_settings.dryrun:
         logger,
         [str(file) for file in CONFIG_FILES[1:]],
         ("all", *items.NAMES),
-        remaining.Remaining(remaining.weights(the_plan), workflow.cores),
+        remaining.Remaining(remaining.weights(the_plan), AT_A_TIME),
     )
 
 

@@ -16,9 +16,9 @@ class Project:
         self.folder = folder
         self.chromium = ""  # none, whatever this machine has
 
-    def snakemake(self, *words):
-        """Run Snakemake on two cores; return the finished process, output as text."""
-        command = [sys.executable, "-m", "snakemake", "--cores", "2", *words]
+    def snakemake(self, *words, where=("--cores", "2")):
+        """Run Snakemake, on two cores if not told; return the finished process, output as text."""
+        command = [sys.executable, "-m", "snakemake", *where, *words]
         own = {**os.environ, "KACSIM_CHROMIUM": self.chromium}
         return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=own)
 

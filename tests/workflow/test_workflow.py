@@ -25,6 +25,14 @@ def test_a_bare_dry_run_plans_every_job(tmp_path):
     assert jobs["report"] == jobs["run_times"] == jobs["all"] == 1
 
 
+def test_jobs_of_a_cluster_are_as_good_as_cores(finished):
+    """Read to its end without Slurm: all is there, and nothing is submitted."""
+    where = ("--executor", "slurm", "--jobs", "3")
+    answer = finished.snakemake("kac_fig4", *SMOKE, where=where)
+    assert answer.returncode == 0, answer.stdout + answer.stderr
+    assert "Nothing to be done" in answer.stdout + answer.stderr
+
+
 def test_the_smoke_run_makes_everything_once(finished):
     results = finished.folder / "results"
     for name in items.NAMES:

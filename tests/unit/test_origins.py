@@ -44,6 +44,11 @@ def test_a_value_that_is_none_has_no_case():
     assert origins.of_series(series([0.5, np.nan, 0.125]), dataset(), CASES) == [0, None, 2]
 
 
+def test_a_table_that_holds_some_of_the_values_is_another():
+    some = xarray.Dataset({"first": (("algorithm", "n_particles"), np.fliplr(VALUES) * [1, 1, 0])})
+    assert origins.of_series(series(VALUES[0]), some.merge(dataset()), CASES) == [0, 1, 2]
+
+
 def test_what_was_not_drawn_has_no_case():
     exact = {"kind": "points", "x": np.array(NUMBERS, float), "y": VALUES[0]}
     for one in (exact, exact | {"kind": "curve"}, series(VALUES[0] + 0.01)):
@@ -72,7 +77,9 @@ def test_a_histogram_has_one_case():
 @pytest.mark.parametrize("name", ["kind", "n_many"])
 def test_a_coordinate_of_another_name_is_told_by_its_values(name):
     dims = (name, "n_particles") if name == "kind" else ("algorithm", name)
-    assert origins.of_series(series(VALUES[0]), dataset(dims), CASES) == [0, 1, 2]
+    # A time that is one of the numbers: these are not times.
+    cases = [(title, own | {"time": 5.0}) for title, own in CASES]
+    assert origins.of_series(series(VALUES[0]), dataset(dims), cases) == [0, 1, 2]
 
 
 def test_a_coordinate_that_may_be_two_settings_tells_nothing():

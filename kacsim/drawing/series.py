@@ -8,7 +8,7 @@ from matplotlib.patches import StepPatch
 from mpl_toolkits.mplot3d import proj3d
 
 GREEK = {
-    r"\lambda": "λ", r"\Delta": "Δ", r"\varepsilon": "ε", r"\epsilon": "ε", r"\theta": "θ",
+    r"\lambda": "λ", r"\Delta ": "Δ", r"\varepsilon": "ε", r"\epsilon": "ε", r"\theta": "θ",
     r"\pi": "π", r"\omega": "ω", r"\infty": "∞", r"\to": "→", r"\times": "×", r"\nu": "ν",
     r"\tau": "τ", r"\eta": "η", r"\alpha": "α", r"\beta": "β", r"\kappa": "κ", r"\sigma": "σ",
     r"\rho": "ρ", r"\langle": "⟨", r"\rangle": "⟩", r"\,": " ", r"\cdot": "·", r"\leq": "≤",
@@ -16,7 +16,7 @@ GREEK = {
     r"\mathrm": "", r"\sqrt": "√", r"\pm": "±", r"\approx": "≈", r"\prime": "′",
 }  # fmt: skip
 UP, DOWN = (
-    str.maketrans("0123456789-+n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿ"),
+    str.maketrans("0123456789-+nk", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿᵏ"),
     str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"),
 )
 
@@ -30,7 +30,7 @@ def plain(text):
     """Return a label without TeX."""
     for word, sign in sorted(GREEK.items(), key=lambda pair: -len(pair[0])):
         text = text.replace(word, sign)
-    text = re.sub(r"\^\{?([-+0-9n]+)\}?", lambda found: found[1].translate(UP), text)
+    text = re.sub(r"\^\{?([-+0-9nk]+)\}?", lambda found: found[1].translate(UP), text)
     text = re.sub(r"_\{?([0-9]+)\}?", lambda found: found[1].translate(DOWN), text)
     return " ".join(re.sub(r"[${}\\]", "", text).split())
 

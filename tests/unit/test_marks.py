@@ -125,7 +125,8 @@ def test_a_mark_names_the_case_that_it_is_from(tmp_path):
     [
         ("$N$ = 5", "N = 5"),
         ("E $v^4$", "E v⁴"),
-        ("$\\Delta t = 2^{-3}$", "Δ t = 2⁻³"),
+        ("$\\Delta t = 2^{-3}$", "Δt = 2⁻³"),
+        ("$\\Delta t = 2/2^k$", "Δt = 2/2ᵏ"),
         ("$c/c_q$", "c/c_q"),
         ("$\\varepsilon$ = 10$^{-6}$", "ε = 10⁻⁶"),
     ],

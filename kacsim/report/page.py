@@ -108,7 +108,8 @@ def write(items, datasets_folder, figures_folder, output, options="", kernels=No
 
 def without_scripts(html):
     """Return the page without its scripts and what only they read: for paper."""
-    return re.sub(r"<script\b.*?</script>\n?", "", html, flags=re.S)
+    bare = re.sub(r"<script\b.*?</script>\n?", "", html, flags=re.S)
+    return re.sub(r"<noscript>(<svg.*?</svg>)</noscript>", r"\1", bare, flags=re.S)
 
 
 def without_files(html):

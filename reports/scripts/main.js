@@ -17,6 +17,15 @@ function begin() {
     const draws = figure.closest("article").querySelector(".facts dd").textContent.trim();
     if (table) once(figure.querySelector(".plate"), ["pointerenter", "focus"], () => new Reading(figure, table, draws));
   }
+  for (const thumb of document.querySelectorAll(".thumb")) {
+    // A copy of a whole figure takes its time: it is made when it is near, or for paper.
+    const show = () => {
+      const kept = thumb.querySelector("noscript");
+      if (kept) thumb.innerHTML = kept.textContent;
+    };
+    whenNear(thumb, show);
+    addEventListener("beforeprint", show);
+  }
   const lab = document.getElementById("lab-room");
   if (lab) {
     const { stored, claims } = dataOf("lab-data");

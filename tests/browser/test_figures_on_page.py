@@ -147,6 +147,17 @@ def test_pointing_at_a_mark_tells_it(opened):
     assert not page.locator("#tip").is_visible()
 
 
+def test_pictures_at_a_glance_are_there_when_near_and_for_paper(opened):
+    page = opened()
+    pictures, places = page.locator(".thumb svg use"), page.locator(".thumb").count()
+    assert pictures.count() == 0
+    page.evaluate("document.getElementById('gallery').scrollIntoView()")
+    page.wait_for_selector(".thumb svg use", state="attached")
+    assert page.locator(".thumb svg").first.bounding_box()["height"] > 50
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert pictures.count() == places > 10
+
+
 def test_curves_are_switched_off_and_on(opened):
     page = opened()
     item = "kac_fig3"

@@ -147,7 +147,8 @@ def test_without_javascript_the_table_is_whole(chromium, report):
     assert page.locator(ROWS).count() == page.locator("tr[data-claim]").count() > 100
     assert not page.locator("#question").is_visible()
     assert not page.locator(".unfold").first.is_visible()
-    assert page.locator("noscript").count() == 1
+    assert page.locator("noscript p").count() == 1
+    assert page.locator(".thumb svg use").count() == page.locator(".thumb").count() > 10
     assert page.locator("ol.first li").first.is_visible()
     page.close()
 

@@ -133,6 +133,9 @@ def test_a_copy_for_paper_has_no_script_and_all_words(html):
     paper = report.without_scripts(html)
     assert "<script" not in paper
     assert "worker" not in paper
+    # Nobody there has scripts, which a browser that prints would think it has.
+    assert paper.count("<noscript><svg") == 0 < html.count("<noscript><svg")
+    assert paper.count("-figure_1") == html.count("-figure_1")
     assert Page(paper).text.split() == Page(html).text.split()
 
 

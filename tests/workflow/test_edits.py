@@ -139,6 +139,7 @@ LATER = [
     ("kacsim/kac/samplers.py", 'Variant("bird", "Bird")', 'Variant("bird", "Bird (DSMC)")',
      {"kac_numbers", "kac_work_precision"},
      KAC_FIGURES),
+    ("kacsim/cases.py", "draws of {self.id}", "values of {self.id}", set(), {"kac_fig3", "kac_fig4"}),
     ("kacsim/drawing/plotting.py", '"axes.titlesize": 9', '"axes.titlesize": 10', set(), EVERY),
     ("kacsim/items/kac_fig4.py", '"""Draw ', '"""Paint ', set(), set()),
     ("kacsim/report/csv_table.py", 'lineterminator="\\n"', 'lineterminator="\\r\\n"', set(), EVERY),
